@@ -8,6 +8,7 @@ a backquote is written ``\\```, and a character that cannot be seen (a line brea
 from __future__ import annotations
 
 import re
+from collections.abc import Container
 
 NUMERALS = "⁰¹²³⁴-⁹ⁱⁿ¼-¾⅐-⅟↉"
 """Raised digits and letters and fractions of one character, which are no part of a plain word."""
@@ -36,9 +37,14 @@ _PLAIN = re.compile(WORD)
 _ESCAPE = re.compile(r"\\(?:u\{([0-9a-fA-F]{1,6})\}|([`\\]))")
 
 
-def quoted(name: str) -> str:
-    """The name as text reads it, wherever it stands."""
-    return between_quotes(name) if name in CONSTANTS else quoted_if_needed(name)
+def is_product(name: str, letters: Container[str], bound: Container[str] = ()) -> bool:
+    """Whether text reads a word as a product: all its letters are names, or one is bound and stands nowhere alone."""
+    return len(name) > 1 and name.isalpha() and (all(x in letters for x in name) or any(x in bound for x in name))
+
+
+def quoted(name: str, beside: Container[str] = ()) -> str:
+    """The name as text reads it, wherever it stands, ``beside`` others."""
+    return between_quotes(name) if name in CONSTANTS or is_product(name, beside) else quoted_if_needed(name)
 
 
 def quoted_if_needed(name: str) -> str:

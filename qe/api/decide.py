@@ -9,7 +9,7 @@ from typing import Any, Unpack, cast
 
 from qe import arguments
 from qe.api.eliminate import answered_under
-from qe.api.input import AnyFormula, order_of, read_polynomial
+from qe.api.input import AnyFormula, of_one_problem, order_of, read_polynomial
 from qe.api.limits import limits_of, posed, read_under, under
 from qe.api.settings import Decision, Search, settings_in, with_settings
 from qe.errors import InputError, Unable
@@ -18,9 +18,9 @@ from qe.exact.ring import Poly, Ring
 from qe.formula.assumed import Posed
 from qe.formula.build import conj, convert, exists, forall, iff, implies
 from qe.formula.counting import without_root_atoms
-from qe.formula.features import features
 from qe.formula.numbers import bounds_of_numbers, unknowns
 from qe.formula.syntax import TRUE, Formula
+from qe.io.names import names_in
 from qe.io.substitution import over_one_ring
 from qe.processes.limits import Limits
 from qe.proof.answer import Answer
@@ -69,7 +69,7 @@ def check_witness(sentence: AnyFormula, witness: Mapping[Any, AnyFormula], **set
     limits = limits_of(settings)
     stated = posed(sentence, settings, limits, numbers=True)
     given = without_root_atoms(stated.formula)
-    offered, known = arguments.by_name(witness, "witness"), features(given).bound
+    offered, known = arguments.by_name(witness, "witness"), names_in(given)
     read = read_under(limits, partial(_polynomials, offered, known), offered)
     rings = [r for r in (given.ring, *(poly.ring for poly, _ in read.values())) if r is not None]
     ring = Ring.of(dict.fromkeys(name for r in rings for name in r.names))
@@ -96,9 +96,10 @@ def compared(first: AnyFormula, second: AnyFormula, given: Mapping[str, Any]) ->
     settings = cast(Search, {name: s.default for name, (_, s) in settings_in(Search).items()} | {**given})
     limits = limits_of(settings)
     plain: dict[str, Any] = {**settings, "assuming": None}
+    first, second, assuming = of_one_problem(first, second, settings["assuming"])
     one, other = (posed(formula, plain, limits, numbers=True) for formula in (first, second))
     f, g, *inner = over_one_ring(one.formula, other.formula, one.known, other.known)
-    stated = under(iff(f, g), conj(inner), settings["assuming"], limits, others=(*f.free, *g.free), numbers=True)
+    stated = under(iff(f, g), conj(inner), assuming, limits, others=(*f.free, *g.free), numbers=True)
     names = unknowns(dict.fromkeys((*f.free, *g.free, *stated.known.free)))
     claim = forall(names, implies(stated.known, stated.formula))
     return _decided(claim, [first, second], settings, limits)

@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 import sys
 import warnings
-from collections.abc import Container, Iterable, Mapping, Sequence
+from collections.abc import Collection, Container, Iterable, Mapping, Sequence
 from decimal import Decimal
 from fractions import Fraction
 from numbers import Real
@@ -175,16 +175,24 @@ def read_posed_constraints(given: AnyFormula, objective: AnyFormula) -> Read:
     return formula, conj(over_one_ring(known, *assumed_of(objective)))
 
 
-def with_products_written(*given: AnyFormula) -> tuple[AnyFormula, ...]:
-    """Texts of a problem whose variables are all its names, with the signs of products (``qe.io.text.with_products``)
-    and a note on each; what else was given as it is."""
-    if not all(isinstance(part, str) for part in given):
-        return given
+def of_one_problem(*given: AnyFormula, listed: Collection[str] = ()) -> list[AnyFormula]:
+    """What was given for one problem, alone or in lists, as ``qe.io.text.with_products`` has texts that are read by
+    themselves, with a note on each product; ``listed``: variables that the caller names."""
+    texts = [
+        part for one in given for part in (one if isinstance(one, list | tuple) else [one]) if isinstance(part, str)
+    ]
+    if len(texts) < 2 and not listed:
+        return [*given]
     from qe.io.text import with_products
 
-    texts, products = with_products(given)
+    texts, products = with_products(texts, listed)
     warned([f"{word} is read as the product {'*'.join(word)}" for word in products])
-    return tuple(texts)
+    written = iter(texts)
+
+    def put(part: AnyFormula) -> AnyFormula:
+        return [*map(put, part)] if isinstance(part, list | tuple) else next(written) if isinstance(part, str) else part
+
+    return [*map(put, given)]
 
 
 def read_polynomial(given: AnyFormula, what: str, *, known: Container[str] = ()) -> tuple[Poly, Fraction]:

@@ -8,7 +8,7 @@ from functools import partial
 from importlib import import_module
 from typing import Any, TypeVar
 
-from qe.api.input import AnyFormula, Read, note_doubts, read_assumptions, read_posed, warned
+from qe.api.input import AnyFormula, Read, note_doubts, of_one_problem, read_assumptions, read_posed, warned
 from qe.api.settings import Limited
 from qe.errors import InputError
 from qe.formula.assumed import Posed
@@ -17,6 +17,7 @@ from qe.formula.numbers import bounds_of_numbers
 from qe.formula.syntax import FALSE, TRUE, Formula
 from qe.formula.traverse import bound_variables, conjuncts
 from qe.formula.weight import may_block, text_may_block
+from qe.io.formats import Format
 from qe.io.names import refuse_numbers
 from qe.io.sharing import refuse_shared
 from qe.io.substitution import over_one_ring
@@ -73,10 +74,13 @@ def posed(
     about something else.
     """
     format, division = settings.get("format", "text"), settings.get("total_division", False)
+    assuming = settings.get("assuming")
+    if format in ("text", Format.TEXT):
+        formula, assuming = of_one_problem(formula, assuming, listed=(*solved, *(settings.get("order") or ())))
     result, inner = read_under(limits, partial(reader, formula, format, division), formula)
     refuse_shared(result)
     note_doubts(formula, result, format, solved)
-    return under(result, inner, settings.get("assuming"), limits, numbers=numbers)
+    return under(result, inner, assuming, limits, numbers=numbers)
 
 
 def under(

@@ -12,10 +12,10 @@ from qe.api.input import (
     AnyFormula,
     names_typed,
     note_doubts,
+    of_one_problem,
     read_objective,
     read_posed_constraints,
     warned,
-    with_products_written,
 )
 from qe.api.limits import limits_of, performed, read_under, under
 from qe.api.settings import Optimisation, with_settings
@@ -151,14 +151,11 @@ def _best(
             raise InputError(f"objective: a {'least' if sign > 0 else 'greatest'} value is asked for here, not there")
         constraints = [constraints, more]
         parameters = sorted(names_typed([objective, more]) - {*variables}) or parameters
-    if isinstance(constraints, str):
-        objective, constraints = with_products_written(objective, constraints)
-    elif isinstance(constraints, list | tuple):
-        objective, *constraints = with_products_written(objective, *constraints)
+    given, assuming = arguments.names(parameters, "parameters"), settings["assuming"]
+    objective, constraints, assuming = of_one_problem(objective, constraints, assuming, listed=given or ())
     read = read_under(limits, partial(read_posed_constraints, constraints, objective), constraints)
-    stated = under(*read, settings["assuming"], limits, others=names_typed([objective]), numbers=True)
+    stated = under(*read, assuming, limits, others=names_typed([objective]), numbers=True)
     conditions = stated.restricted
-    given = arguments.names(parameters, "parameters")
     strangers = sorted({*(given or ())} - names_typed([objective, constraints, conditions]))
     if strangers:
         raise InputError(f"parameters: variables of the problem expected, each once, {', '.join(strangers)} found")

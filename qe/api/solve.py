@@ -9,10 +9,11 @@ from typing import TYPE_CHECKING, Any, Unpack, cast
 
 from qe import arguments
 from qe.api.eliminate import decided, region_of
-from qe.api.input import AnyFormula, read_block, with_products_written
+from qe.api.input import AnyFormula, read_block
 from qe.api.limits import limits_of, performed, posed
 from qe.api.settings import ProvedBlock, ProvedQuestion, Question, with_settings
 from qe.decomposition.extended_tarski import true_everywhere
+from qe.decomposition.pieces import readable
 from qe.engine.run import solve as eliminated
 from qe.errors import InternalError, Unable
 from qe.exact.number import ExactPoint, Values
@@ -50,8 +51,6 @@ def solve(formula: AnyFormula, variables: Any = None, **settings: Unpack[ProvedQ
     Raises ``InputError`` for what cannot be read, ``Unable`` (``BudgetExceeded`` at a limit) where elimination does.
     """
     asked = solved_for(formula) if variables is None and isinstance(formula, str) else variables
-    if variables is None:
-        (formula,) = with_products_written(formula)
     limits, wanted = limits_of(settings), arguments.names(asked, "variables")
     whole = replace(limits, start=None)
     stated = posed(formula, settings, limits, solved=wanted or (), numbers=True)
@@ -80,7 +79,7 @@ def _solutions(
     if by_value is not None and sum(map(len, by_value)) <= sum(map(len, lines)):
         lines = by_value
     region.limits = whole
-    solutions = Solutions(region.order, cases, region, tuple(lines))
+    solutions = Solutions(region.order, cases, region, tuple(readable(line, region.order) for line in lines))
     return replace(solutions, answer=_compared(solutions, given, known, budget)) if check else solutions
 
 
@@ -88,7 +87,7 @@ def _compared(solutions: Solutions, given: Formula, known: Formula, budget: Budg
     """The answer to the question whether the text says the same as the formula, from one decomposition if that does."""
     from qe.api.verify import with_verdict
 
-    written, question, assumed = over_one_ring(read(str(solutions)), given, known)
+    written, question, assumed = over_one_ring(read(str(solutions), known=solutions.order), given, known)
     claim = implies(assumed, iff(written, question))
     sentence = forall(claim.free, claim)
     try:
@@ -122,8 +121,7 @@ def find(formula: AnyFormula, n: int = 1, *, seed: int = 0, **settings: Unpack[P
     """
     count, start = arguments.whole(n, "n", MOST_POINTS), arguments.integers([seed], "seed")[0]
     limits = limits_of(settings)
-    (typed,) = with_products_written(formula)
-    given = posed(typed, settings, limits).restricted
+    given = posed(formula, settings, limits).restricted
     work = partial(_found, given, count, start, settings["check"], replace(limits, start=None, process=False))
     return performed(work, given, limits)
 

@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 import json
-import time
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Any
 
+from qe.arguments import names
 from qe.cli.numbers import exact_and_decimal, shown
-from qe.cli.work import Reply, Request, in_json, read_question, with_products
+from qe.cli.work import Reply, Request, in_json
 from qe.exact.number import point_text
 from qe.processes.channel import Channel
 from qe.proof.multipliers import OptimumStatus
@@ -33,8 +33,6 @@ class Goal:
 def optimize(channel: Channel, request: Request, goal: Goal) -> Reply:
     """``qe minimize``, ``qe maximize``: the exact value, the point, and what is active there; with parameters, the
     cases. ``qe optimum``: both, the least value first."""
-    source, objective = with_products(request.source, goal.objective)
-    request, goal = replace(request, source=source), replace(goal, objective=objective)
     if goal.maximize is not None:
         return _best(channel, request, goal)
     low, high = (_best(channel, request, replace(goal, maximize=way)) for way in (False, True))
@@ -49,20 +47,19 @@ def _best(channel: Channel, request: Request, goal: Goal) -> Reply:
     import qe.api.optimum as api_optimum
     from qe.optimization.parametric_optimum import ParametricOptimum
 
-    start = time.perf_counter()
     solve = api_optimum.maximize if goal.maximize else api_optimum.minimize
-    constraints, known = read_question(channel, request.source)
-    keywords = {**request.keywords(channel, constraints, known), "parameters": goal.parameters}
-    best: Optimum | GlobalOptimum | ParametricOptimum = solve(goal.objective, constraints, **keywords)
+    parameters = names(goal.parameters, "parameters")
+    constraints, keywords, objective = request.read(channel, goal.objective, listed=parameters or ())
+    keywords["parameters"] = parameters
+    best: Optimum | GlobalOptimum | ParametricOptimum = solve(objective, constraints, **keywords)
     if isinstance(best, ParametricOptimum):
         status = OptimumStatus.OPTIMAL if best.cases else OptimumStatus.INFEASIBLE
         data, lines = {"status": status.value, **best.to_dict()}, str(best).splitlines()
     else:
         data, lines = _data(best), _lines(best, "greatest" if goal.maximize else "least")
-    seconds = time.perf_counter() - start
     how = f"proved {data['status']}" if best.certificate is not None and not best.reason else "found"
-    text = "\n".join([*lines, f"{how} in {seconds:.3f} s"])
-    return request.reply(best, text, {**data, "seconds": round(seconds, 6)})
+    text = "\n".join([*lines, f"{how} in {request.seconds:.3f} s"])
+    return request.reply(best, text, {**data, "seconds": request.seconds})
 
 
 def _data(best: Optimum | GlobalOptimum) -> dict[str, Any]:
@@ -97,6 +94,10 @@ def _exact(point: Mapping[str, object]) -> dict[str, dict[str, str]]:
     return {name: exact_and_decimal(value) for name, value in point.items()}
 
 
+def _values(point: Mapping[str, object]) -> list[str]:
+    return [f"{quoted(name, point)} = {shown(value)}" for name, value in point.items()]
+
+
 def _lines(best: Optimum | GlobalOptimum, extreme: str) -> list[str]:
     """One optimum for people; ``extreme``: the least or greatest value was asked for."""
     from qe.convex.optimum import Optimum
@@ -114,9 +115,9 @@ def _lines(best: Optimum | GlobalOptimum, extreme: str) -> list[str]:
         lines.append(f"no point has one {beyond} {shown(best.bound)}; the exact numbers are out of reach")
     several = () if isinstance(best, Optimum) or len(best.points) < 2 else best.points
     for point in several:
-        lines.append(f"at {', '.join(f'{quoted(name)} = {shown(value)}' for name, value in point.items())}")
+        lines.append(f"at {', '.join(_values(point))}")
     if not several:
-        lines += [f"{quoted(name)} = {shown(value)}" for name, value in best.point.items()]
+        lines += _values(best.point)
     if isinstance(best, Optimum):
         lines.append(f"active: {', '.join(best.constraints[i] for i in best.active) or 'nothing'}")
     elif best.points:

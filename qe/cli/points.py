@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-import time
+from dataclasses import replace
 
 from qe.cli.source import Source
-from qe.cli.work import Reply, Request, in_json, read_question, with_products
+from qe.cli.work import Reply, Request, in_json, read_question
 from qe.errors import Unable
 from qe.exact.number import point_text
 from qe.exact.radicals import radical_text
@@ -18,12 +18,11 @@ def find(channel: Channel, request: Request, n: int, seed: int) -> Reply:
 
     if request.certificate:
         raise Unable("points have no certificate of their own; --check proves them")
-    start = time.perf_counter()
-    formula, known = read_question(channel, *with_products(request.source))
-    points = api.find(formula, n, seed=seed, **request.keywords(channel, formula, known))
+    formula, keywords = request.read(channel)
+    points = api.find(formula, n, seed=seed, **keywords)
     listed = [{name: str(value) for name, value in point.items()} for point in points]
     lines = [point_text({name: radical_text(value) for name, value in p.items()}) or "true" for p in points]
-    data = {"status": "solved", "points": listed, "seconds": round(time.perf_counter() - start, 6)}
+    data = request.data(points=listed)
     text = in_json(data) if request.json else "\n".join(lines) or "none"
     return Reply(text, verdict="checked" if request.check else "")  # or an error was raised
 
@@ -33,13 +32,11 @@ def witnesses(channel: Channel, request: Request) -> Reply:
     import qe.api.solve as api
     from qe.api.input import read_block
 
-    start = time.perf_counter()
-    source = request.source
-    _, known = read_question(channel, source)
-    block, _ = read_block(source.text, source.format.value)
-    listed = api.witnesses(block, **request.keywords(channel, block, known))
+    _, keywords = request.read(channel)
+    block, _ = read_block(request.source.text, request.source.format.value)
+    listed = api.witnesses(block, **keywords)
     cases = [{"guard": str(one.guard), "terms": dict(one.terms)} for one in listed]
-    data = {"status": "solved", "witnesses": cases, "seconds": round(time.perf_counter() - start, 6)}
+    data = request.data(witnesses=cases)
     return request.reply(listed.answer, "\n".join(map(str, listed)) or "none", data)
 
 
@@ -47,11 +44,9 @@ def equivalent(channel: Channel, request: Request, other: Source) -> Reply:
     """``qe equivalent``: true or false."""
     from qe.api.decide import compared
 
-    start = time.perf_counter()
-    one, known = read_question(channel, request.source)
-    two, also = read_question(channel, other)
-    keywords = request.keywords(channel, one, known)
+    one, keywords, text = request.read(channel, other.text)
+    two, also = read_question(channel, replace(other, text=text))
     keywords["assuming"] = [also] if keywords["assuming"] is None else [also, keywords["assuming"]]
     answer = compared(one, two, keywords)
-    data = {"status": "solved", "truth": answer.truth, "seconds": round(time.perf_counter() - start, 6)}
+    data = request.data(truth=answer.truth)
     return request.reply(answer, "true" if answer.truth else "false", data)

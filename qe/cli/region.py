@@ -3,12 +3,11 @@
 from __future__ import annotations
 
 import tempfile
-import time
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 from qe.cli.numbers import shown
-from qe.cli.work import Reply, Request, read_question, with_products
+from qe.cli.work import Reply, Request
 from qe.errors import InputError
 from qe.processes.channel import Channel
 from qe.spelling import quoted
@@ -25,14 +24,12 @@ def region(channel: Channel, request: Request, picture: str | None) -> Reply:
 
     if picture is not None and picture not in PICTURES:
         raise InputError(f"--plot: a file ending in {', '.join(PICTURES)} expected, {picture} found")
-    start = time.perf_counter()
-    formula, known = read_question(channel, request.source)
-    solution_set = api.region(formula, **request.keywords(channel, formula, known))
-    seconds = time.perf_counter() - start
+    formula, keywords = request.read(channel)
+    solution_set = api.region(formula, **keywords)
     files: dict[str, str | bytes] = {"certificate": solution_set.proof.to_json()} if request.certificate else {}
     if picture is not None:
         files["plot"] = _drawn(solution_set, picture)
-    text = solution_set.to_json() if request.json else "\n".join(_in_words(solution_set, seconds))
+    text = solution_set.to_json() if request.json else "\n".join(_in_words(solution_set, request.seconds))
     return Reply(text, files=files, verdict=request.verdict(solution_set))
 
 
@@ -41,13 +38,10 @@ def solve(channel: Channel, request: Request, variables: tuple[str, ...] | None)
     import qe.api.solve as api_solve
     from qe.io.text import solved_for
 
-    start = time.perf_counter()
     variables = variables or solved_for(request.source.text)
-    (source,) = (request.source,) if variables else with_products(request.source)
-    formula, known = read_question(channel, source, solved=variables or ())
-    solutions = api_solve.solve(formula, variables, **request.keywords(channel, formula, known))
-    names, seconds = list(solutions.order), round(time.perf_counter() - start, 6)
-    data = {"status": "solved", "variables": names, "cases": list(solutions.lines), "seconds": seconds}
+    formula, keywords = request.read(channel, solved=variables or ())
+    solutions = api_solve.solve(formula, variables, **keywords)
+    data = request.data(variables=list(solutions.order), cases=list(solutions.lines))
     return request.reply(solutions, str(solutions), data)
 
 

@@ -16,7 +16,6 @@ from qe.errors import CertificateRejected, InputError, Unable
 from qe.io import formats
 from qe.io.formats import Format
 from qe.options import Budget
-from qe.spelling import quoted
 
 if TYPE_CHECKING:
     from qe.formula.syntax import Formula
@@ -48,19 +47,33 @@ class Request:
     json: bool = False
     check: bool = False
     explain: bool = False
+    start: float = field(default_factory=time.perf_counter)
 
-    def keywords(self, channel: Channel, formula: Formula, known: Formula | None = None) -> dict[str, Any]:
-        """The keywords for a call of the public functions about a formula that was read from the source, and what that
-        assumes."""
-        from qe.api.input import order_of
+    @property
+    def seconds(self) -> float:
+        """How long ago it was made."""
+        return round(time.perf_counter() - self.start, 6)
 
-        order = (
-            {"order": order_of(self.settings["order"], self.source.text, formula)} if "order" in self.settings else {}
-        )
-        given = {**self.settings, **order, "progress": channel.event, "check": self.certificate or self.check}
-        if known is not None and known.free:
+    def data(self, **answer: Any) -> dict[str, Any]:
+        """An answer for machines."""
+        return {"status": "solved", **answer, "seconds": self.seconds}
+
+    def read(self, channel: Channel, *terms: str, listed: Sequence[str] = (), solved: Sequence[str] = ()) -> Any:
+        """The formula of the source, to be ``solved`` for these; the keywords for a call of the public functions about
+        it, with what it assumes; and ``terms`` of the same problem, whose variables may be ``listed``."""
+        from qe.api.input import of_one_problem, order_of
+
+        source, given = self.source, dict(self.settings)
+        if source.format is Format.TEXT:
+            names, assuming = (*solved, *listed, *(given.get("order") or ())), given.get("assuming")
+            text, assuming, *terms = of_one_problem(source.text, assuming, *terms, listed=names)  # type: ignore[assignment]
+            source, given["assuming"] = replace(source, text=text), assuming
+        formula, known = read_question(channel, source, solved=solved)
+        if "order" in given:
+            given["order"] = order_of(given["order"], source.text, formula)
+        if known.free:
             given["assuming"] = [known] if given.get("assuming") is None else [known, given["assuming"]]
-        return given
+        return formula, {**given, "progress": channel.event, "check": self.certificate or self.check}, *terms
 
     def verdict(self, answer: Any) -> str:
         """What the check that was wanted has shown."""
@@ -104,36 +117,24 @@ def read_question(channel: Channel, source: Source, *, solved: Sequence[str] = (
     return formula, known
 
 
-def with_products(source: Source, *terms: str) -> tuple[Any, ...]:
-    """A source all of whose names are variables, with the signs of products if it is a text, and terms beside it."""
-    if source.format is not Format.TEXT:
-        return source, *terms
-    from qe.api.input import with_products_written
-
-    text, *written = with_products_written(source.text, *terms)
-    return replace(source, text=text), *written
-
-
 def eliminate(channel: Channel, request: Request, output: Format, *, shorter: bool = False) -> Reply:
     """``qe eliminate`` and ``qe simplify``."""
     import qe.api.eliminate as api
 
     ask: Callable[..., Answer] = api.simplify if shorter else api.eliminate
-    start = time.perf_counter()
-    formula, known = read_question(channel, request.source)
-    answer = ask(formula, **request.keywords(channel, formula, known))
-    seconds = time.perf_counter() - start
+    formula, keywords = request.read(channel)
+    answer = ask(formula, **keywords)
     if answer.formula is None:
         if answer.partial is None:
             raise Unable(answer.reason or "no answer")
         return _partial_reply(answer, answer.partial, request, output)
     written = formats.write(answer.formula, output.value)
     assumed = {"assuming": formats.write(answer.assuming, output.value)} if answer.assuming.free else {}
-    data = {"status": answer.status.name.lower(), "formula": written, **assumed, **_summary(answer, seconds)}
+    data = {"status": answer.status.name.lower(), "formula": written, **assumed, **_summary(answer, request.seconds)}
     text = written.rstrip("\n")
     if answer.generic:
         text += f"\nassuming {' and '.join(map(str, answer.generic))}"
-    return request.reply(answer, text, data, notes=_story(request, answer, seconds))
+    return request.reply(answer, text, data, notes=_story(request, answer))
 
 
 def _partial_reply(answer: Answer, partial: Partial, request: Request, output: Format) -> Reply:
@@ -160,8 +161,7 @@ def decide(channel: Channel, request: Request) -> Reply:
     from qe.processes.limits import Limits
 
     script = request.source.format is Format.SMTLIB
-    formula, inner = read_question(channel, request.source)
-    start, keywords = time.perf_counter(), request.keywords(channel, formula, inner)
+    formula, keywords = request.read(channel)
     stated = under(formula, build.conj(()), keywords.pop("assuming"), Limits(), numbers=True)
     if script:
         sentence = build.exists(stated.restricted.free, stated.restricted)
@@ -172,12 +172,11 @@ def decide(channel: Channel, request: Request) -> Reply:
             hint = f"qe eliminate takes them; all {names}. … makes a sentence"
             raise InputError(f"{request.source.name}: a sentence expected, but free here: {names} ({hint})")
     answer = api.eliminate(sentence, **keywords)
-    seconds = time.perf_counter() - start
     if answer.truth is None:
         raise Unable(answer.reason or "no answer")
     text = ("sat" if answer.truth else "unsat") if script else ("true" if answer.truth else "false")
-    data = {"status": answer.status.name.lower(), **_summary(answer, seconds)}
-    return request.reply(answer, text, data, notes=_story(request, answer, seconds))
+    data = {"status": answer.status.name.lower(), **_summary(answer, request.seconds)}
+    return request.reply(answer, text, data, notes=_story(request, answer))
 
 
 def _summary(answer: Answer, seconds: float) -> dict[str, Any]:
@@ -188,7 +187,7 @@ def _summary(answer: Answer, seconds: float) -> dict[str, Any]:
         "guarantee": answer.guarantee.name.lower(),
         "trusts": list(answer.trusts),
         "stats": plain(answer.stats),
-        "seconds": round(seconds, 6),
+        "seconds": seconds,
     }
 
 
@@ -280,15 +279,16 @@ def certificate_text(answer: object) -> str:
     return str(certificate.to_json())
 
 
-def _story(request: Request, answer: Answer, seconds: float) -> tuple[str, ...]:
+def _story(request: Request, answer: Answer) -> tuple[str, ...]:
     """For people who want it: the witness, the guarantee, and the steps that led to the answer."""
     if request.json or not request.explain:
         return ()
+    from qe.exact.number import point_text
+
     lines = []
     if answer.witness:
-        kind = "counterexample" if answer.truth is False else "witness"
-        lines.append(f"{kind}: " + ", ".join(f"{quoted(name)} = {value}" for name, value in answer.witness.items()))
-    lines.append(f"{answer.guarantee.value} in {seconds:.3f} s")
+        lines.append(f"{'counterexample' if answer.truth is False else 'witness'}: {point_text(answer.witness)}")
+    lines.append(f"{answer.guarantee.value} in {request.seconds:.3f} s")
     return (*lines, *_rests(answer.trusts), *answer.explanation.splitlines())
 
 

@@ -101,7 +101,12 @@ class Optimum(SymPyForm):
 
 
 def minimize(
-    objective: Poly, conditions: Formula, *, scale: Fraction | int = 1, budget: Budget | None = None, near: bool = False
+    objective: Poly,
+    constraints: Formula,
+    *,
+    scale: Fraction | int = 1,
+    budget: Budget | None = None,
+    near: bool = False,
 ) -> Optimum:
     """Minimise ``scale * objective`` (scale > 0 for a convex objective) subject to a conjunction of atoms; ``near``:
     NEAR_OPTIMAL is an answer too.
@@ -109,19 +114,24 @@ def minimize(
     The answer is proved exactly and carries a certificate for ``qe.certify``. Raises ``NotConvex`` for problems
     outside the class, ``BudgetExceeded`` at a limit, and ``Unable`` when no proof was found.
     """
-    system = read_system(conditions, objective, scale=scale)
+    system = read_system(constraints, objective, scale=scale)
     evidence = proved(system, budget=budget or Budget(), near=near)
-    optimum = _answer(atoms_of(conditions), _uniform(evidence))
+    optimum = _answer(atoms_of(constraints), _uniform(evidence))
     if evidence.status is OptimumStatus.NEAR_OPTIMAL:
-        return _near(optimum, conditions, objective, Fraction(scale))
+        return _near(optimum, constraints, objective, Fraction(scale))
     return optimum
 
 
 def maximize(
-    objective: Poly, conditions: Formula, *, scale: Fraction | int = 1, budget: Budget | None = None, near: bool = False
+    objective: Poly,
+    constraints: Formula,
+    *,
+    scale: Fraction | int = 1,
+    budget: Budget | None = None,
+    near: bool = False,
 ) -> Optimum:
     """The maximum of a concave objective: minus the minimum of its negative, which the certificate is about."""
-    optimum = minimize(objective, conditions, scale=-Fraction(scale), budget=budget, near=near)
+    optimum = minimize(objective, constraints, scale=-Fraction(scale), budget=budget, near=near)
     if optimum.value is None:
         return optimum
     return replace(optimum, value=-optimum.value, bound=None if optimum.bound is None else -optimum.bound)

@@ -6,7 +6,8 @@ the earlier variables. Adjacent cells of a stack merge when everything above the
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+import re
+from collections.abc import Callable, Collection, Mapping
 from dataclasses import dataclass, field
 
 from qe.decomposition.radicals import halved, quotient_text, radicals
@@ -18,7 +19,7 @@ from qe.formula.syntax import Formula
 from qe.io.text import read
 from qe.options import Budget
 from qe.proof.cells import CellTable
-from qe.spelling import quoted
+from qe.spelling import QUOTED, WORD, between_quotes, is_product, quoted
 
 LONGEST = 200
 """Characters of one bound in texts for people."""
@@ -51,6 +52,9 @@ class RootFunction:
         return f"root({self.k}, a polynomial of degree {degree} in {variable} with {self.poly.term_count()} terms)"
 
     def __str__(self) -> str:
+        return readable(self._text(), self.poly.ring.names)
+
+    def _text(self) -> str:
         if self.value is not None:
             return str(self.value)
         written, c = self.written, self.poly.coefficients(self.poly.level)
@@ -113,11 +117,22 @@ class Range:
         return self._text(RootFunction.brief)
 
     def _text(self, shown: Callable[[RootFunction], str]) -> str:
-        lower = "" if self.lower is None else shown(self.lower)
-        if self.is_point:
-            return f"{quoted(self.variable)} = {lower}"
-        upper = "" if self.upper is None else shown(self.upper)
-        return range_text(quoted(self.variable), lower, upper, self.lower_closed, self.upper_closed)
+        ends = self.lower, self.upper
+        lower, upper = ("" if end is None else shown(end) for end in ends)
+        name = quoted(self.variable, next((end.poly.ring.names for end in ends if end is not None), ()))
+        return (
+            f"{name} = {lower}"
+            if self.is_point
+            else range_text(name, lower, upper, self.lower_closed, self.upper_closed)
+        )
+
+
+def readable(text: str, names: Collection[str]) -> str:
+    """The text with those names between backquotes that reading would take for products of others."""
+    made = {name for name in names if is_product(name, names)}
+    if not made:
+        return text
+    return re.sub(rf"{QUOTED}|{WORD}", lambda word: between_quotes(word[0]) if word[0] in made else word[0], text)
 
 
 def range_text(name: str, lower: str, upper: str, lower_closed: bool, upper_closed: bool) -> str:
@@ -151,7 +166,7 @@ class Piece:
     @property
     def formula(self) -> Formula:
         """What ``str`` says, as a formula that holds at exactly the points of the piece; it may have root atoms."""
-        return read(str(self))
+        return read(str(self), known=self.table.order)
 
     def __str__(self) -> str:
         return " and ".join(str(r) for r in self._bounded) or "true"

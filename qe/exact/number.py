@@ -47,7 +47,7 @@ def _escaped(name: str) -> str:
 
 def point_text(point: Mapping[str, object]) -> str:
     """A point in one line: ``x = 1/2, y = sqrt(2)``, the names as the text syntax reads them."""
-    return ", ".join(f"{quoted(name)} = {value}" for name, value in point.items())
+    return ", ".join(f"{quoted(name, point)} = {value}" for name, value in point.items())
 
 
 def simplest(value: Number) -> Number:

@@ -33,7 +33,7 @@ class Range(NamedTuple):
         """As formulas are."""
         notation = with_forms(self.forms, notation)
         middle = f"{notation.relation(self.above)} {polynomial(self.term, notation)} {notation.relation(self.under)}"
-        return f"{_end(*self.low, notation)} {middle} {_end(*self.high, notation)}"
+        return f"{end_text(*self.low, notation)} {middle} {end_text(*self.high, notation)}"
 
 
 def sides(poly: Poly, relation: Relation) -> Side:
@@ -116,9 +116,10 @@ def _number(parts: list[Monomial]) -> int:
     return sum(c for c, powers in parts if not powers)
 
 
-def _end(parts: list[Monomial], divisor: int, notation: Notation) -> str:
+def end_text(parts: list[Monomial], divisor: int, notation: Notation) -> str:
+    """A sum over a denominator; in brackets where no fraction is drawn."""
     text = polynomial(parts, notation)
-    if len(parts) > 1 and divisor > 1:
+    if len(parts) > 1 and divisor > 1 and notation.quotient("", "") == "/":
         text = f"{notation.brackets[0]}{text}{notation.brackets[1]}"
     return text if divisor == 1 else notation.quotient(text, digits(divisor))
 
@@ -141,7 +142,7 @@ def written(poly: Poly, relation: Relation, notation: Notation) -> str:
 
 def _by_sides(poly: Poly, relation: Relation, notation: Notation) -> str:
     left, between, right, divisor = sides(poly, relation)
-    return f"{polynomial(left, notation)} {notation.relation(between)} {_end(right, divisor, notation)}"
+    return f"{polynomial(left, notation)} {notation.relation(between)} {end_text(right, divisor, notation)}"
 
 
 def _product(one: Poly, factors: Sequence[tuple[Poly, int]], notation: Notation) -> str:

@@ -77,7 +77,7 @@ class FormulaNode(Connected, Substituting, SymPyForm):
         return True
 
     def __str__(self) -> str:
-        return self.written(text_notation(self.free))
+        return self.written(text_notation(self.free, self.bound))
 
     def __repr__(self) -> str:
         return f"Formula({self.brief()})"

@@ -7,15 +7,14 @@ from collections.abc import Callable, Iterable
 from qe.exact.ring import Poly
 from qe.formula.notation import Notation, polynomial, positive
 from qe.formula.relation import Relation
-from qe.spelling import CONSTANTS, between_quotes, quoted_if_needed
+from qe.spelling import CONSTANTS, between_quotes, is_product, quoted_if_needed
 
 
-def text_notation(free: Iterable[str]) -> Notation:
-    """The notation for a formula with these free variables: those named like constants stand between backquotes."""
-    doubtful = CONSTANTS.intersection(free)
-    if not doubtful:
-        return TEXT
-    return _notation(lambda name: between_quotes(name) if name in doubtful else quoted_if_needed(name))
+def text_notation(free: Iterable[str], bound: Iterable[str] = ()) -> Notation:
+    """The notation for a formula with these variables: what is named like constants or products is quoted."""
+    beside = {*free, *bound}
+    doubtful = {name: between_quotes(name) for name in free if name in CONSTANTS or is_product(name, beside, {*bound})}
+    return _notation(lambda name: doubtful.get(name) or quoted_if_needed(name)) if doubtful else TEXT
 
 
 def _notation(spelled: Callable[[str], str]) -> Notation:
@@ -25,12 +24,7 @@ def _notation(spelled: Callable[[str], str]) -> Notation:
     def root(variable: str, relation: Relation, poly: Poly, k: int) -> str:
         return f"{spelled(variable)} {relation.value} root({k}, {polynomial(positive(poly), notation)})"
 
-    notation = Notation(
-        name=spelled,
-        quantifier=quantifier,
-        root=root,
-        customary=True,
-    )
+    notation = Notation(name=spelled, quantifier=quantifier, root=root, customary=True)
     return notation
 
 

@@ -5,35 +5,18 @@ from __future__ import annotations
 import itertools
 from collections.abc import Container
 
+from qe.io import surface as s
 from qe.io.sharing import inside
-from qe.io.surface import (
-    MAX_DEPTH,
-    Apply,
-    Choice,
-    Fail,
-    Meet,
-    Name,
-    Number,
-    Part,
-    Polynomial,
-    Power,
-    Product,
-    Quantification,
-    Quantity,
-    Quotient,
-    Root,
-    Term,
-)
 from qe.spelling import PI, WORDS_FOR_PI
 
 
-def chain(term: Term, known: Container[int] = ()) -> tuple[Term, list[Product | Quotient]]:
+def chain(term: s.Term, known: Container[int] = ()) -> tuple[s.Term, list[s.Product | s.Quotient]]:
     """``a*b/c*…`` as a and the steps that follow it: the chain may be long, so nothing recurses along it.
 
     It starts at a part whose identity is ``known``, if there is one.
     """
-    links: list[Product | Quotient] = []
-    while isinstance(term, Product | Quotient) and id(term) not in known:
+    links: list[s.Product | s.Quotient] = []
+    while isinstance(term, s.Product | s.Quotient) and id(term) not in known:
         links.append(term)
         term = term.left
     return term, links[::-1]
@@ -45,7 +28,7 @@ class Names:
     ``special`` counts the parts that may need a name of their own.
     """
 
-    def __init__(self, fail: Fail, meet: Meet) -> None:
+    def __init__(self, fail: s.Fail, meet: s.Meet) -> None:
         self.fail, self.meet = fail, meet
         self.free: dict[str, None] = {}
         self.bound: dict[str, None] = {}
@@ -57,39 +40,39 @@ class Names:
             raise self.fail("pi is a number here; a variable of this name is written `pi`", -1)
         return [*self.free, *(name for name in self.bound if name not in self.free)]
 
-    def part(self, part: Part, scope: frozenset[str] = frozenset(), depth: int = 0) -> None:
+    def part(self, part: s.Part, scope: frozenset[str] = frozenset(), depth: int = 0) -> None:
         """Collect what stands in a node or term under quantifiers that bind the names of ``scope``."""
-        if depth > MAX_DEPTH:
-            raise self.fail(f"nested more than {MAX_DEPTH} levels deep", -1)
+        if depth > s.MAX_DEPTH:
+            raise self.fail(f"nested more than {s.MAX_DEPTH} levels deep", -1)
         children = inside(part)
         match part:
-            case Name(name, at):
+            case s.Name(name, at):
                 self.name(name, at, scope)
-            case Polynomial(terms):
+            case s.Polynomial(terms):
                 for name in dict.fromkeys(itertools.chain.from_iterable(terms)):
                     if name not in scope:
                         self.name(name, -1, scope)
-            case Product() | Quotient():
+            case s.Product() | s.Quotient():
                 first, links = chain(part)
-                self.special += sum(isinstance(x, Quotient) and not isinstance(x.right, Number) for x in links)
+                self.special += sum(isinstance(x, s.Quotient) and not isinstance(x.right, s.Number) for x in links)
                 children = [first, *(link.right for link in links)]
-            case Power(_, exponent, _):
-                self.special += not isinstance(exponent, Number) or exponent.value.denominator > 1
-            case Quantification(_, names, _):
+            case s.Power(_, exponent, _):
+                self.special += not isinstance(exponent, s.Number) or exponent.value.denominator > 1
+            case s.Quantification(_, names, _):
                 self.bound.update(dict.fromkeys(names))
                 scope = scope.union(names)
-            case Quantity(_, count, name, _):
+            case s.Quantity(_, count, name, _):
                 self.bound[name] = None
                 self.special += count + 2
                 scope |= {name}
-            case Root():
+            case s.Root():
                 self.special += 1
                 children = [part.poly]
-            case Apply() | Choice():
+            case s.Apply() | s.Choice():
                 self.special += 1
         for child in children:
             self.part(child, scope, depth + 1)
-        if isinstance(part, Root) and part.variable is not None and part.variable not in scope:
+        if isinstance(part, s.Root) and part.variable is not None and part.variable not in scope:
             self.free[part.variable] = None  # met in the polynomial, or refused later
 
     def name(self, name: str, at: int, scope: frozenset[str]) -> None:

@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING, Any
 from qe import arguments
 from qe.arguments import shown
 from qe.errors import InputError
+from qe.io.tokens import REDLOG
 from qe.spelling import NUMBERS, quoted
 
 if TYPE_CHECKING:
@@ -44,7 +45,7 @@ class Format(Enum):
 
 
 _BEGINNINGS = {
-    Format.REDLOG: re.compile(r"\s*rl(?:qe|cad|gqe|hqe|qea|simpl|decide)\b"),
+    Format.REDLOG: re.compile(rf"\s*{REDLOG}\b"),
     Format.SMTLIB: re.compile(r"\s*\((?:set-(?:logic|info|option)|declare-|define-|assert\s*\()"),
 }
 """What no text begins with."""

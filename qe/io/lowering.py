@@ -20,6 +20,7 @@ from qe.formula.build import atom, conj, convert, disj, exists, forall, iff, imp
 from qe.formula.quantity import almost_all, at_least, connected, exactly, infinitely_many
 from qe.formula.syntax import FALSE, TRUE, Formula, Relation
 from qe.formula.traverse import has_root_atoms
+from qe.io import surface as s
 from qe.io import terms
 from qe.io.auxiliaries import Exhausted
 from qe.io.collected import sides
@@ -27,28 +28,6 @@ from qe.io.collecting import Names
 from qe.io.names import refuse_numbers
 from qe.io.radicals import Place
 from qe.io.sharing import ordered, refuse_long
-from qe.io.surface import (
-    Comparison,
-    Equivalence,
-    Every,
-    Fail,
-    Implication,
-    Infinity,
-    Meet,
-    Minus,
-    Name,
-    Negation,
-    Node,
-    Number,
-    Part,
-    Polynomial,
-    Quantification,
-    Quantity,
-    Root,
-    Some,
-    Term,
-    Truth,
-)
 from qe.io.terms import TermError, Value
 from qe.io.total import Total
 from qe.io.unfolding import Sums
@@ -59,12 +38,12 @@ MOST_RESERVED = 4096
 
 
 def lower(
-    node: Node,
-    fail: Fail,
+    node: s.Node,
+    fail: s.Fail,
     *,
     names: Iterable[str] | None = None,
-    shared: Sequence[Part] = (),
-    meet: Meet = lambda name, at: None,
+    shared: Sequence[s.Part] = (),
+    meet: s.Meet = lambda name, at: None,
     total: Total | None = None,
 ) -> Formula:
     """The formula that ``node`` means; ``fail(message, at)`` makes the error for a position.
@@ -96,7 +75,7 @@ def lower(
 
 
 def _lowered(
-    node: Node, fail: Fail, names: list[str], reserve: int, shared: Sequence[Part], total: Total | None
+    node: s.Node, fail: s.Fail, names: list[str], reserve: int, shared: Sequence[s.Part], total: Total | None
 ) -> Formula:
     taken = set(names)
     extra = [f"s{k}" for k in range(1, reserve + len(names) + 1) if f"s{k}" not in taken][:reserve]
@@ -112,7 +91,7 @@ def _lowered(
     return convert(formula, Ring.of([*names, *(name for name in extra if name in used)]))
 
 
-def lower_term(term: Term, fail: Fail, *, meet: Meet = lambda name, at: None, numbers: bool = False) -> Value:
+def lower_term(term: s.Term, fail: s.Fail, *, meet: s.Meet = lambda name, at: None, numbers: bool = False) -> Value:
     """The polynomial over Q that ``term`` means, in the ring of its names; ``numbers`` that are not algebraic may be
     among these."""
     collected = Names(fail, meet)
@@ -132,45 +111,45 @@ def lower_term(term: Term, fail: Fail, *, meet: Meet = lambda name, at: None, nu
 class Lowering:
     """Formulas and comparisons over one ring; ``extra`` are the names of it that auxiliary values may take."""
 
-    def __init__(self, ring: Ring, fail: Fail, extra: Sequence[str], total: Total | None) -> None:
+    def __init__(self, ring: Ring, fail: s.Fail, extra: Sequence[str], total: Total | None) -> None:
         self.ring, self.fail = ring, fail
         self.values = Valuation(ring, fail, extra, total, self.node)
         self.nodes: dict[int, Formula] = {}
         self.sums = Sums(self.values.terms, self.values.term)
 
-    def remember(self, part: Part) -> None:
+    def remember(self, part: s.Part) -> None:
         """Lower a part that others share; the caller keeps it alive, so its identity is a key."""
-        if isinstance(part, Node):
+        if isinstance(part, s.Node):
             self.nodes[id(part)] = self.node(part, Place())
-        elif not isinstance(part, Root | Infinity):
+        elif not isinstance(part, s.Root | s.Infinity):
             self.values.remember(part)
 
-    def node(self, node: Node, place: Place) -> Formula:
+    def node(self, node: s.Node, place: Place) -> Formula:
         """The formula that the node means at this place."""
         known = self.nodes.get(id(node))
         if known is not None and (place.asserted or not self.values.loose):
             return known
         match node:
-            case Comparison():
+            case s.Comparison():
                 return self.comparison(node, place)
-            case Every(parts):
+            case s.Every(parts):
                 return conj([self.node(part, place) for part in parts])
-            case Some(parts):
+            case s.Some(parts):
                 return disj([self.node(part, place) for part in parts])
-            case Negation(part):
+            case s.Negation(part):
                 return neg(self.node(part, place.denied))
-            case Implication(left, right):
+            case s.Implication(left, right):
                 return implies(self.node(left, place.denied), self.node(right, place))
-            case Equivalence(left, right):
+            case s.Equivalence(left, right):
                 return self.equivalence(left, right, place)
-            case Quantification(universal, names, body):
+            case s.Quantification(universal, names, body):
                 return (forall if universal else exists)(names, self.node(body, place.inside(universal)))
-            case Quantity():
+            case s.Quantity():
                 return self.quantity(node, place)
-            case Truth(value):
+            case s.Truth(value):
                 return TRUE if value else FALSE
 
-    def quantity(self, node: Quantity, place: Place) -> Formula:
+    def quantity(self, node: s.Quantity, place: Place) -> Formula:
         """How many values satisfy the body, said by ex and all, with names of auxiliary values for the others."""
         kind, count, name, body, at = node
         inner = place.inside(kind == "G")
@@ -187,14 +166,14 @@ class Lowering:
             return at_least(count, name, holds, spare)
         return connected(name, holds, denied, spare) if kind == "C" else exactly(count, name, holds, denied, spare)
 
-    def equivalence(self, left: Node, right: Node, place: Place) -> Formula:
+    def equivalence(self, left: s.Node, right: s.Node, place: Place) -> Formula:
         asserted = self.node(left, place), self.node(right, place)
         if not self.values.loose:
             return iff(*asserted)
         denied = self.node(left, place.denied), self.node(right, place.denied)
         return conj((implies(denied[0], asserted[1]), implies(denied[1], asserted[0])))
 
-    def comparison(self, node: Comparison, place: Place) -> Formula:
+    def comparison(self, node: s.Comparison, place: Place) -> Formula:
         links = zip(pairwise(node.sides), node.relations, strict=True)
         try:
             formulas = [self.link(left, relation, right, place) for (left, right), relation in links]
@@ -202,28 +181,28 @@ class Lowering:
             raise self.fail(str(error), node.at) from None
         return conj(formulas) if len(formulas) > 1 else formulas[0]
 
-    def link(self, left: Term, relation: Relation, right: Term, place: Place) -> Formula:
+    def link(self, left: s.Term, relation: Relation, right: s.Term, place: Place) -> Formula:
         """``left relation right``."""
-        both = () if isinstance(left, Polynomial) else ((right, left, relation), (left, right, relation.flipped))
+        both = () if isinstance(left, s.Polynomial) else ((right, left, relation), (left, right, relation.flipped))
         for side, other, seen in both:
-            if isinstance(side, Root) and isinstance(other, Name) and side.variable in (None, other.name):
+            if isinstance(side, s.Root) and isinstance(other, s.Name) and side.variable in (None, other.name):
                 return self.root_comparison(other, seen, side)
             if (sign := _infinite(side)) is not None:
                 return self.bounded(other, seen, sign, place)
-            if not isinstance(other, Root) and (parts := self.sums.unfolded(side, seen.flipped)):
+            if not isinstance(other, s.Root) and (parts := self.sums.unfolded(side, seen.flipped)):
                 join, cases = parts
                 return join([self.link(part, seen.flipped, other, place) for part in cases])
-        if isinstance(left, Polynomial) or isinstance(right, Polynomial):
+        if isinstance(left, s.Polynomial) or isinstance(right, s.Polynomial):
             left, right = sides(left, right, terms.MAX_TERMS)
         a = self.values.term(left)
-        if isinstance(a, Value) and isinstance(right, Number) and not right.value:
+        if isinstance(a, Value) and isinstance(right, s.Number) and not right.value:
             return atom(a.poly, relation)
         b = self.values.term(right)
         if isinstance(a, Value) and isinstance(b, Value):
             return terms.compare(a, relation, b)
         return self.values.compared(self.values.listed(a), relation, self.values.listed(b), place)
 
-    def root_comparison(self, side: Name, relation: Relation, root: Root) -> Formula:
+    def root_comparison(self, side: s.Name, relation: Relation, root: s.Root) -> Formula:
         k = self.values.constant(root.number, "the first argument of root must be an integer", root.at)
         poly = self.values.polynomial(root.poly, root.at)
         index = self.ring.index[side.name]
@@ -234,7 +213,7 @@ class Lowering:
             raise self.fail(f"no such root: {reason}", root.at)
         return root_atom(side.name, relation, poly, k)
 
-    def bounded(self, side: Term, relation: Relation, sign: int, place: Place) -> Formula:
+    def bounded(self, side: s.Term, relation: Relation, sign: int, place: Place) -> Formula:
         """``side relation sign*infinity``: only whether the side has a value matters."""
         if _infinite(side) is not None:
             raise self.fail("infinity is compared with terms only", -1)
@@ -244,9 +223,9 @@ class Lowering:
         return TRUE if isinstance(value, Value) else self.values.defined(value, place)
 
 
-def _infinite(term: Term) -> int | None:
+def _infinite(term: s.Term) -> int | None:
     """The sign of an infinite side; None for any other."""
-    if isinstance(term, Minus):
+    if isinstance(term, s.Minus):
         sign = _infinite(term.part)
         return None if sign is None else -sign
-    return 1 if isinstance(term, Infinity) else None
+    return 1 if isinstance(term, s.Infinity) else None

@@ -3,16 +3,17 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Callable, Iterator
+from collections.abc import Callable
 from html import escape
 from itertools import pairwise
-from typing import Never
 
-from qe.formula.comparison import Range, ranges, sides
+from qe.exact.ring import Poly
+from qe.formula import notation
+from qe.formula.comparison import Range, end_text, ranges, sides
 from qe.formula.features import length
-from qe.formula.linear_forms import Forms, in_linear_forms
-from qe.formula.notation import Monomial, digits, monomials, positive
-from qe.formula.syntax import And, Atom, Constant, Exists, ForAll, Formula, Not, Or, Relation, RootAtom
+from qe.formula.linear_forms import in_linear_forms, with_forms
+from qe.formula.notation import Level, Monomial, Notation, positive
+from qe.formula.syntax import And, Atom, Exists, ForAll, Formula, Or, Relation
 from qe.io.latex import GREEK
 from qe.spelling import PI, visible
 
@@ -31,7 +32,8 @@ _RELATIONS = {
     Relation.GT: "&gt;",
     Relation.GE: "≥",
 }
-_AND, _OR = "∧", "∨"
+_BARE = re.compile(r"(<m[ino]\b[^>]*>.*?</m[ino]>|<[^>]*>)|([0-9]+)|\s*([-+])\s*|\s+")
+"""What is an element already, or a number, a sign, or a space beside elements."""
 
 
 def name(variable: str) -> str:
@@ -52,100 +54,73 @@ LEFT = ' style="text-align:left"'
 
 
 def write(formula: Formula) -> str:
-    """A ``<math>`` element in display style."""
-    return f'<math xmlns="http://www.w3.org/1998/Math/MathML" display="block">{_lines(formula)}</math>'
+    """A ``<math>`` element in display style; there is a row for each operand where there is much of them."""
+    return f'<math xmlns="http://www.w3.org/1998/Math/MathML" display="block">{in_rows(formula)}</math>'
 
 
-def _lines(formula: Formula) -> str:
-    """The quantifiers, and what they are about; operands stand in rows of a table where there is much of them."""
-    prefix = ""
-    while isinstance(formula, Exists | ForAll):
-        prefix += _quantifier(formula)
-        formula = formula.body
-    return f"<mrow>{prefix}{expression(formula, broken=True)}</mrow>"
+def expression(formula: Formula, *, level: Level = Level.OPEN, draw: Draw = name) -> str:
+    """A formula, ``level``: inside of what."""
+    if not hasattr(formula, "written"):
+        raise TypeError(f"not a formula: {formula!r}")
+    return _marked(formula.written(_notation(draw), level, False))
 
 
-def _rows(formula: And | Or, draw: Draw) -> str:
-    """The operands of an operator, each in a row."""
-    operator = _operator(_AND if isinstance(formula, And) else _OR)
-    drawn = _operands(formula, draw, True)
-    rows = (f"<mtr><mtd>{operator if i else ''}</mtd><mtd{LEFT}>{arg}</mtd></mtr>" for i, arg in enumerate(drawn))
-    return f"<mtable columnalign='right left'>{''.join(rows)}</mtable>"
-
-
-def expression(formula: Formula, *, bracket: bool = False, draw: Draw = name, broken: bool = False) -> str:
-    """A formula; ``bracket``: compound ones need brackets here; ``broken``: long polynomials take several lines."""
+def in_rows(formula: Formula, level: Level = Level.OPEN) -> str:
+    """A formula; operands stand in rows of a table where there is much of them, long polynomials in several lines."""
     match formula:
-        case Constant(value):
-            return f"<mi>{'true' if value else 'false'}</mi>"
         case Atom():
-            poly, forms = in_linear_forms(formula.poly)
-            draw = _with_forms(forms, draw)
-            parts, relation, right, divisor = sides(poly, formula.relation)
-            end = f"{_relation(relation)}{_end(right, divisor, draw)}"
-            lines = _line_starts(parts) if broken else [0]
-            if len(lines) > 1:
-                return _in_lines(parts, lines, draw, end)
-            return f"<mrow>{polynomial(parts, draw)}{end}</mrow>"
-        case RootAtom(variable, relation, poly, k):
-            root = f"<msub><mi>root</mi><mn>{k}</mn></msub>{bracketed(polynomial(positive(poly), draw))}"
-            return f"<mrow>{draw(variable)}{_relation(relation)}{root}</mrow>"
-        case Not(arg):
-            return f"<mrow>{_operator('¬')}{expression(arg, bracket=True, draw=draw, broken=broken)}</mrow>"
-        case Exists(_, body) | ForAll(_, body):
-            inner = f"{_quantifier(formula, draw)}{expression(body, draw=draw, broken=broken)}"
-        case And() | Or() if broken and length(formula)[1] > WIDTH:
-            inner = _rows(formula, draw)
-        case And() | Or():
-            inner = _operator(_AND if isinstance(formula, And) else _OR).join(_operands(formula, draw, broken))
+            return _in_lines(formula)
+        case Exists(variables, body) | ForAll(variables, body):
+            prefix = _DRAWN.quantifier(isinstance(formula, ForAll), variables)
+            inner = f"<mrow>{prefix}{in_rows(body)}</mrow>"
+        case And(args) | Or(args) if length(formula)[1] > WIDTH:
+            own, operator = (Level.AND, _AND) if isinstance(formula, And) else (Level.OR, _OR)
+            drawn = (
+                _marked(part.written(_DRAWN)) if isinstance(part, Range) else in_rows(part, own)
+                for part in (ranges(args) if own is Level.AND else args)
+            )
+            rows = (
+                f"<mtr><mtd>{operator if i else ''}</mtd><mtd{LEFT}>{row}</mtd></mtr>" for i, row in enumerate(drawn)
+            )
+            inner = f"<mtable columnalign='right left'>{''.join(rows)}</mtable>"
         case _:
-            unknown: Never = formula  # mypy holds the cases against all kinds
-            raise TypeError(f"not a formula: {unknown!r}")
-    return bracketed(inner) if bracket else f"<mrow>{inner}</mrow>"
-
-
-def _operands(formula: And | Or, draw: Draw, broken: bool) -> Iterator[str]:
-    for part in ranges(formula.args) if isinstance(formula, And) else formula.args:
-        if isinstance(part, Range):
-            low, above, term, under, high, forms = part
-            middle = f"{_relation(above)}{polynomial(term, _with_forms(forms, draw))}{_relation(under)}"
-            yield f"<mrow>{_end(*low, draw)}{middle}{_end(*high, draw)}</mrow>"
-        else:
-            yield expression(part, bracket=True, draw=draw, broken=broken)
-
-
-def _with_forms(forms: Forms, draw: Draw) -> Draw:
-    """Linear forms in the place of variables."""
-    drawn: dict[str, str] = {}
-    for name, (form, less) in forms.items():
-        shift = _operator("−" if less > 0 else "+") + _end([(abs(less.numerator), ())], less.denominator, draw)
-        drawn[name] = bracketed(polynomial(monomials(form), draw) + (shift if less else ""))
-    return lambda name: drawn.get(name) or draw(name)
-
-
-def _end(parts: list[Monomial], divisor: int, draw: Draw) -> str:
-    """A sum over a denominator."""
-    side = polynomial(parts, draw)
-    return side if divisor == 1 else f"<mfrac><mrow>{side}</mrow><mn>{digits(divisor)}</mn></mfrac>"
+            return expression(formula, level=level)
+    return inner if level is Level.OPEN else bracketed(inner)
 
 
 def bracketed(inner: str) -> str:
     """The expression in brackets."""
-    return f'<mrow><mo form="prefix">(</mo>{inner}<mo form="postfix">)</mo></mrow>'
+    return inner.join(_DRAWN.brackets)
 
 
-def _quantifier(formula: Exists | ForAll, draw: Draw = name) -> str:
-    symbol = "∀" if isinstance(formula, ForAll) else "∃"
-    variables = "<mo>,</mo>".join(map(draw, formula.variables))
-    return f"<mrow><mo>{symbol}</mo>{variables}<mo>:</mo></mrow>"
+def polynomial(parts: list[Monomial], draw: Draw = name) -> str:
+    """A sum of monomials (``qe.formula.notation.monomials``)."""
+    return _marked(notation.polynomial(parts, _notation(draw)))
 
 
-def _operator(symbol: str) -> str:
-    return f'<mo lspace="0.4em" rspace="0.4em">{symbol}</mo>' if symbol in (_AND, _OR) else f"<mo>{symbol}</mo>"
+def _marked(text: str) -> str:
+    """A row of elements, of what is written with signs and numbers between them."""
+
+    def element(found: re.Match[str]) -> str:
+        known, number, sign = found.groups()
+        return known or (number and f"<mn>{number}</mn>") or (sign and f"<mo>{sign.replace('-', '−')}</mo>") or ""
+
+    return f"<mrow>{_BARE.sub(element, text)}</mrow>"
 
 
-def _relation(relation: Relation) -> str:
-    return f"<mo>{_RELATIONS[relation]}</mo>"
+def _in_lines(atom: Atom) -> str:
+    """A comparison, its long sum in lines, with what follows it at the end of the last one."""
+    whole = expression(atom)
+    if len(re.sub("<[^>]*>", "", whole)) <= LINE:
+        return whole
+    poly, forms = in_linear_forms(atom.poly)
+    drawn = with_forms(forms, _DRAWN)
+    parts, relation, right, divisor = sides(poly, atom.relation)
+    texts = [notation.polynomial(parts[a:b], drawn) for a, b in pairwise([*_line_starts(parts), len(parts)])]
+    texts[-1] += _DRAWN.relation(relation) + end_text(right, divisor, drawn)
+    lines = [text if not k or text[0] == "-" else f"+{text}" for k, text in enumerate(texts)]
+    rows = "".join(f"<mtr><mtd{LEFT}>{_marked(line)}</mtd></mtr>" for line in lines)
+    return f"<mtable columnalign='left'>{rows}</mtable>" if len(lines) > 1 else whole
 
 
 def _line_starts(parts: list[Monomial]) -> list[int]:
@@ -159,29 +134,39 @@ def _line_starts(parts: list[Monomial]) -> list[int]:
     return starts
 
 
-def _in_lines(parts: list[Monomial], starts: list[int], draw: Draw, end: str) -> str:
-    """A long sum in lines, with what follows it at the end of the last one."""
-    lines = [polynomial(parts[a:b], draw, follows=a > 0) for a, b in pairwise([*starts, len(parts)])]
-    lines[-1] = f"<mrow>{lines[-1]}{end}</mrow>"
-    rows = "".join(f"<mtr><mtd{LEFT}>{line}</mtd></mtr>" for line in lines)
-    return f"<mtable columnalign='left'>{rows}</mtable>"
-
-
-def polynomial(parts: list[Monomial], draw: Draw = name, *, follows: bool = False) -> str:
-    """A sum of monomials (``qe.formula.notation.monomials``); ``follows``: it goes on with one that stands before."""
-    pieces: list[str] = []
-    for coefficient, powers in parts:
-        if coefficient < 0 or pieces or follows:
-            pieces.append(f"<mo>{'−' if coefficient < 0 else '+'}</mo>")
-        factors = [_power(draw(variable), k) for variable, k in powers]
-        if abs(coefficient) != 1 or not factors:
-            factors.insert(0, f"<mn>{digits(abs(coefficient))}</mn>")
-        pieces.append("<mo>&#x2062;</mo>".join(factors))
-    return f"<mrow>{''.join(pieces) or '<mn>0</mn>'}</mrow>"
-
-
 def _power(base: str, k: int) -> str:
-    if k == 1:
-        return base
     indexed = base.startswith("<msub>")  # the power then stands above the index, not after it
     return f"<msubsup>{base[6:-7]}<mn>{k}</mn></msubsup>" if indexed else f"<msup>{base}<mn>{k}</mn></msup>"
+
+
+def _notation(draw: Draw) -> Notation:
+    def quantifier(universal: bool, names: tuple[str, ...]) -> str:
+        return f"<mrow><mo>{'∀' if universal else '∃'}</mo>{'<mo>,</mo>'.join(map(draw, names))}<mo>:</mo></mrow>"
+
+    def root(variable: str, relation: Relation, poly: Poly, k: int) -> str:
+        inside = notation.polynomial(positive(poly), made)
+        kth = f"<msub><mi>root</mi><mn>{k}</mn></msub>"
+        return f"{draw(variable)}{made.relation(relation)}{kth}{inside.join(made.brackets)}"
+
+    made = Notation(
+        name=draw,
+        relation=lambda relation: f"<mo>{_RELATIONS[relation]}</mo>",
+        quantifier=quantifier,
+        root=root,
+        conjunction=_AND,
+        disjunction=_OR,
+        negation="<mo>¬</mo>",
+        true="<mi>true</mi>",
+        false="<mi>false</mi>",
+        times="<mo>&#x2062;</mo>",
+        power=_power,
+        brackets=('<mrow><mo form="prefix">(</mo>', '<mo form="postfix">)</mo></mrow>'),
+        quotient="<mfrac><mrow>{}</mrow><mn>{}</mn></mfrac>".format,
+        strict=True,
+        customary=True,
+    )
+    return made
+
+
+_AND, _OR = (f'<mo lspace="0.4em" rspace="0.4em">{sign}</mo>' for sign in "∧∨")
+_DRAWN = _notation(name)

@@ -22,7 +22,7 @@ from qe.io.lowering import lower
 from qe.io.names import Renaming, check_name
 from qe.io.parser import FORMULA, INFIX, NOT, PREFIX, REPLIED, Parser, Prefix, parsed
 from qe.io.text_errors import Failing, SyntaxFailure
-from qe.io.tokens import END, SIGNS, Token, kinds, matches
+from qe.io.tokens import END, REDLOG, SIGNS, Token, kinds, matches
 
 _TOKEN = re.compile(
     r"(?P<SPACE>\s+|%[^\n]*)"
@@ -45,7 +45,7 @@ RELATION neq geq leq equal lessp greaterp
 """)
 _RELATIONS = kinds("/= <> neq\n>= geq\n<= leq\n= equal\n< lessp\n> greaterp")
 _KINDS = {**SIGNS, **kinds("RELATION = <> < <= > >=\nPOWER **\nBEGIN {\nEND }\nASSIGN :=\nSTOP ; $")}
-_CALL = re.compile(r"rl(?:qe|cad|gqe|hqe|qea|simpl|decide)", re.IGNORECASE)
+_CALL = re.compile(REDLOG, re.IGNORECASE)
 _CAPITAL = re.compile(r"[A-Z]")
 _PLAIN = re.compile(r"[A-Za-z][A-Za-z0-9_]*")
 _RESERVED = re.compile(

@@ -11,7 +11,8 @@ x. A name is a word, possibly with primes, or anything between backquotes: `` `m
 from __future__ import annotations
 
 import re
-from collections.abc import Container, Sequence
+from collections import Counter
+from collections.abc import Collection, Container, Sequence
 from fractions import Fraction
 from typing import cast
 
@@ -27,7 +28,7 @@ from qe.io.text_parser import is_latex, parser_of
 from qe.io.tokens import without_collections
 from qe.io.total import Total
 from qe.spelling import CONSTANTS as CONSTANTS
-from qe.spelling import QUOTED, WORD, WORDS_FOR_PI
+from qe.spelling import QUOTED, WORD, WORDS_FOR_PI, is_product
 
 _ASKED = re.compile(
     rf"\s*(?:{'|'.join(COMMANDS)})\[.*,\s*(?!Reals)(\{{[^{{}}<>=]*\}}|{WORD})\s*(?:,\s*Reals\s*)?\]\s*", re.DOTALL
@@ -44,11 +45,11 @@ _SUBJECT = re.compile(r"(?is)(.+?),?\s+(?:subject\s+to|s\.\s?t\.|such\s+that|giv
 def read(text: str, *, source: str = "<text>", known: Container[str] = (), total_division: bool = False) -> Formula:
     """The formula that ``text`` means. ``source`` names the text in messages.
 
-    ``pi`` is the number, a variable with a name of its own (``qe.formula.numbers``), unless it stands between
-    backquotes or is ``known`` to be a variable (for texts that programs wrote). A quotient has no value where its
-    denominator is zero; with ``total_division`` it has one there that nothing is known of, as in SMT-LIB, and the
-    formula holds if it holds for some choice of these values. Raises ``ParseError``, one line with line, column and
-    what was expected.
+    ``pi`` is the number, a variable with a name of its own (``qe.formula.numbers``), and a word whose letters are names
+    a product, unless it stands between backquotes or is ``known`` to be a variable (as programs know theirs). A
+    quotient has no value where its denominator is zero; with ``total_division`` it has one there that nothing is known
+    of, as in SMT-LIB, and the formula holds if it holds for some choice of these values. Raises ``ParseError``, one
+    line with line, column and what was expected.
     """
     text = _quoting(text, known)
     fail = Failing(text, source)
@@ -83,9 +84,12 @@ def _written_out(text: str) -> str:
 
 
 def _quoting(text: str, known: Container[str]) -> str:
-    """The text with backquotes around words for pi that are variables."""
-    words = {word: f"`{word}`" for word in WORDS_FOR_PI if word in known}
-    return re.sub(rf"{QUOTED}|{WORD}", lambda word: words.get(word[0], word[0]), text) if words else text
+    """The text with backquotes around words that would not be read as names, and are known to be."""
+    words = {
+        word for word in re.findall(WORD, text) if word in known and (word in WORDS_FOR_PI or is_product(word, word))
+    }
+    words -= {*KEYWORDS, *FUNCTIONS}
+    return re.sub(rf"{QUOTED}|{WORD}", lambda w: f"`{w[0]}`" if w[0] in words else w[0], text) if words else text
 
 
 def read_polynomial(text: str, *, source: str = "<text>", known: Container[str] = ()) -> tuple[Poly, Fraction]:
@@ -146,16 +150,22 @@ def optimum_asked(text: str) -> tuple[int, str, str, tuple[str, ...]] | None:
     return sign, objective, f"{{{', '.join(constraints)}}}" if constraints else "true", (*re.findall(WORD, variables),)
 
 
-def with_products(texts: Sequence[str]) -> tuple[list[str], list[str]]:
-    """The texts of one problem whose variables are all its names, with the signs of products of letters that stand
-    alone somewhere, ``xy`` beside x and y; and these products. Where somebody wrote a sign, they are names."""
+def with_products(texts: Sequence[str], listed: Collection[str] = ()) -> tuple[list[str], list[str]]:
+    """The texts of one problem without quantifiers, with the signs of the products that the lexer would read in them as
+    one text whose variables are the ``listed`` ones; these products; and listed names between backquotes."""
+    texts = [_quoting(text, listed) for text in texts]
     whole = "\n".join(texts)
-    words = {*re.findall(WORD, whole)}
-    if not {"*", "\\", "∃", "∀"}.isdisjoint(whole) or any(KEYWORDS.get(word) == "QUANTIFIER" for word in words):
-        return [*texts], []  # quantifiers: the lexer knows more
-    words -= {*KEYWORDS, *FUNCTIONS}
-    letters = {word for word in words if len(word) == 1}
-    made = {word: "*".join(word) for word in words if word.isalpha() and len(word) > 1 and {*word} <= letters}
+    words = Counter(re.findall(WORD, whole))
+    if (
+        not {"\\", "∃", "∀"}.isdisjoint(whole)
+        or "(assert" in whole
+        or any(KEYWORDS.get(word) == "QUANTIFIER" for word in words)
+    ):
+        return texts, []  # quantifiers: the lexer knows more
+    letters = () if "*" in whole else {*words, *listed}
+    lone = [name for name in listed if len(name) == 1 and not words[name]]
+    names = words.keys() - {*KEYWORDS, *FUNCTIONS, *CONSTANTS, *listed}
+    made = {word: "*".join(word) for word in sorted(names) if is_product(word, letters, lone)}
     written = re.compile(rf"{QUOTED}|/\s*{WORD}|{WORD}")  # behind a division they stay names
     return [written.sub(lambda word: made.get(word[0], word[0]), text) for text in texts], [*made]
 

@@ -17,7 +17,7 @@ from qe.io.surface import FUNCTIONS
 from qe.io.text_errors import SyntaxFailure, unknown_character
 from qe.io.text_words import BEHIND, LISTED, NO_VARIABLES, QUANTITY, SIGNED, SORT, SPOKEN, THAT, THERE, quantity
 from qe.io.tokens import Token, kinds
-from qe.spelling import CONSTANTS, PI, QUOTED, WORD, WORDS_FOR_PI, unquoted
+from qe.spelling import CONSTANTS, PI, QUOTED, WORD, WORDS_FOR_PI, is_product, unquoted
 
 _PREFIXES = r"(?:(?:E|A|ex|all|exists|forall)\s+|[∃∀]\s*|[EA](?=[a-z][0-9]*\s*\)))"
 KEYWORDS = kinds("""
@@ -149,7 +149,7 @@ def tokens(text: str) -> Iterator[Token]:
         end -= 1  # a full stop
     while at < end:
         linear = _LINEAR.match(text, at, end) if state.last in _BEFORE_LINEAR and not state.header else None
-        names = re.findall(WORD, linear.group()) if linear is not None and state.letters else ()
+        names = re.findall(WORD, linear.group()) if linear is not None else ()
         if linear is not None and not any(state.is_product(name, at) for name in names):
             yield from state.put("LINEAR", linear.group(), at)
             at = state.end = linear.end()
@@ -268,7 +268,8 @@ class State:
         self.bound: set[str] = {*re.findall(LISTED, behind[1])} if behind else set()
         self.letters = {name for name in self.bound if len(name) == 1}
         self.words: Counter[str] | None = None
-        self.alone: Counter[str] = Counter()
+        self.alone = self.names = Counter[str]()
+        self.products: set[str] = set()
 
     def put(self, kind: str, value: str, at: int) -> Iterator[Token]:
         """The token, with the sign of a product in front of it where that is left out."""
@@ -280,7 +281,7 @@ class State:
         if kind == "COMMA" and self.header:
             rest = at + len(value)
             more = self.behind and self.bound.isdisjoint(re.findall(WORD, self.text[rest:]))
-            more = more or self.goes_on(rest) or (self.bounds_another(rest) if self.spoken or self.bounded else False)
+            more = more or self.goes_on(rest) or self.bounds_another(rest)
             if self.bounded and more:  # ∃ x > 0, y > 0: …
                 kind, value = "QUANTIFIER", self.quantifier
             elif self.spoken and not more:
@@ -293,6 +294,8 @@ class State:
         elif kind == "NAME" and self.header:
             if self.last == "NAME" and self.begins_body(value, at):
                 yield from self.put("DOT", ".", at)
+            elif value in self.products:
+                raise SyntaxFailure(f"{value} is a variable here, and a product before; write `{value}` there", at)
             else:
                 self.bound.add(value)
                 self.letters.update(value if len(value) == 1 else ())
@@ -348,22 +351,24 @@ class State:
         return name in WORDS_FOR_PI and not self.header and name not in self.bound
 
     def is_product(self, name: str, at: int) -> bool:
-        """Whether a name has in it a variable of a quantifier that stands nowhere else, as ``ex x. ax^2 + bx + c = 0``
-        has, or one beside which all its letters are names (``∃x, y: xy ≥ a``) where no sign of a product is written, or
-        stands behind a number alone and its letters elsewhere: ``x^2 - 2mx + m > 0``.
+        """Whether a name that no quantifier binds is a product of its letters: no sign of a product is written and all
+        are names (``∃x, y: xy ≥ a``, ``a + b > ab``); one is the variable of a quantifier that stands nowhere else
+        (``ex x. ax^2 + b = 0``); or it stands behind a number alone and its letters elsewhere: ``x^2 - 2mx + m > 0``.
 
         Behind a division it stays a name."""
-        if len(name) == 1 or self.header or self.brackets[-1].divided:
+        if len(name) == 1 or not name.isalpha() or self.header or self.brackets[-1].divided or name in self.bound:
             return False
-        behind_number, bound = self.last == "NUMBER" and self.end == at, self.letters.intersection(name)
-        if not (behind_number or bound) or not name.isalpha() or name.lower() in (*KEYWORDS, *FUNCTIONS):
+        if name in CONSTANTS or name.lower() in (*KEYWORDS, *FUNCTIONS):
             return False
         if self.words is None:
             self.words, self.alone = (Counter(re.findall(one, self.text)) for one in (WORD, rf"(?<!\w){WORD}"))
-        is_meant = bound and "*" not in self.text and name not in self.bound
-        if (is_meant or (behind_number and not self.alone[name])) and all(self.words[letter] for letter in name):
-            return True
-        return any(self.words[letter] == 1 for letter in bound)
+            self.names = Counter() if "*" in self.text else self.words
+        factor = self.last == "NUMBER" and self.end == at and not self.alone[name]
+        lone = [letter for letter in self.letters if self.words[letter] == 1]
+        if not is_product(name, self.words if factor else self.names, lone):
+            return False
+        self.products.add(name)
+        return True
 
     def prefix(self, value: str, at: int) -> Iterator[Token]:
         """``(E x, y)``, as in front of a formula in brackets."""

@@ -23,6 +23,9 @@ SIGNS = kinds("PLUS +\nMINUS -\nTIMES *\nOVER /\nPOWER ^\nOPEN (\nCLOSE )\nCOMMA
 """The kinds of the signs that terms have in every format."""
 
 
+REDLOG = r"rl(?:qe|cad|gqe|hqe|qea|simpl|decide)"
+"""The calls of Redlog that a question may stand in."""
+
 LONG = 100_000
 """Characters of a text from which on the collector waits until it is read."""
 

@@ -11,28 +11,11 @@ from qe.exact.ring import Poly, Ring
 from qe.formula.build import atom, conj, exists, neg, root_atom
 from qe.formula.syntax import TRUE, And, Formula, Relation
 from qe.io import cases, terms
+from qe.io import surface as s
 from qe.io.auxiliaries import Auxiliaries, Meaning
 from qe.io.cases import Case, Cases
 from qe.io.collecting import chain
 from qe.io.radicals import Auxiliary, Place
-from qe.io.surface import (
-    Algebraic,
-    Apply,
-    Choice,
-    Fail,
-    Infinity,
-    Minus,
-    Name,
-    Node,
-    Number,
-    Polynomial,
-    Power,
-    Product,
-    Quotient,
-    Root,
-    Sum,
-    Term,
-)
 from qe.io.terms import TermError, Value
 from qe.io.total import Total
 
@@ -46,62 +29,62 @@ class Valuation(Auxiliaries):
     def __init__(
         self,
         ring: Ring,
-        fail: Fail,
+        fail: s.Fail,
         extra: Sequence[str],
         total: Total | None,
-        condition: Callable[[Node, Place], Formula],
+        condition: Callable[[s.Node, Place], Formula],
     ) -> None:
         super().__init__(ring, extra, total)
         self.fail, self.condition = fail, condition
         self.terms: dict[int, Meaning] = {}
 
-    def remember(self, term: Term) -> None:
+    def remember(self, term: s.Term) -> None:
         """Value a part that others share; the caller keeps it alive, so its identity is a key."""
         self.terms[id(term)] = self.term(term)
 
     # --- terms -----------------------------------------------------------------------------------------------
-    def term(self, term: Term) -> Meaning:
+    def term(self, term: s.Term) -> Meaning:
         """What a term means: a polynomial where it can be one."""
         if (known := self.terms.get(id(term))) is not None:
             return known
         try:
             match term:
-                case Number(value):
+                case s.Number(value):
                     return terms.number(self.ring, value)
-                case Name(name, at):
+                case s.Name(name, at):
                     if name not in self.ring.index:
                         raise self.fail(f"unknown variable {name}", at)
                     return terms.variable(self.ring, name)
-                case Polynomial(coefficients):
+                case s.Polynomial(coefficients):
                     return terms.combination(self.ring, coefficients)
-                case Sum(parts):
+                case s.Sum(parts):
                     return self.sum([self.term(part) for part in parts])
-                case Minus(part):
+                case s.Minus(part):
                     return self.negated(self.term(part))
-                case Power(base, exponent, at):
+                case s.Power(base, exponent, at):
                     return self.power(self.term(base), self.rational(exponent, at))
-                case Product() | Quotient():
+                case s.Product() | s.Quotient():
                     return self.product(term)
-                case Apply(function, arguments):
+                case s.Apply(function, arguments):
                     return self.apply(function, [self.term(argument) for argument in arguments])
-                case Choice():
+                case s.Choice():
                     return self.choice(term)
-                case Algebraic(number):
+                case s.Algebraic(number):
                     return self.number(number)
-                case Root():
+                case s.Root():
                     return self.root(term)
-                case Infinity(at):
+                case s.Infinity(at):
                     raise self.fail("infinity is no number; it can only be a whole side of a comparison", at)
         except TermError as error:
             raise self.fail(str(error), getattr(term, "at", -1)) from None
 
-    def product(self, term: Product | Quotient) -> Meaning:
+    def product(self, term: s.Product | s.Quotient) -> Meaning:
         first, links = chain(term, self.terms)
         value = self.term(first)
         for link in links:
             right = self.term(link.right)
             try:
-                value = self.times(value, right) if isinstance(link, Product) else self.over(value, right)
+                value = self.times(value, right) if isinstance(link, s.Product) else self.over(value, right)
             except TermError as error:
                 raise self.fail(str(error), link.at) from None
         return value
@@ -198,7 +181,7 @@ class Valuation(Auxiliaries):
                 chosen += [c for case in self.listed(value) for c in cases.guarded(guards, case)]
         return self.simple(tuple(chosen))
 
-    def choice(self, term: Choice) -> Meaning:
+    def choice(self, term: s.Choice) -> Meaning:
         loose = self.loose
         self.loose = False
         condition = self.condition(term.condition, Place())
@@ -255,18 +238,18 @@ class Valuation(Auxiliaries):
         """The name for the square root of a polynomial."""
 
         def made(name: str) -> Auxiliary:
-            s = self.ring.var(name)
-            square = atom(s * s - radicand, Relation.EQ)
+            root = self.ring.var(name)
+            square = atom(root * root - radicand, Relation.EQ)
             inside = atom(radicand, Relation.GE)
-            return Auxiliary(name, conj((atom(s, Relation.GE), square)), inside, radicand)
+            return Auxiliary(name, conj((atom(root, Relation.GE), square)), inside, radicand)
 
         return self.named(("sqrt", radicand), made)
 
     def other_root(self, case: Case, degree: int, odd: bool) -> Cases:
         def made(name: str) -> Auxiliary:
-            s = terms.variable(self.ring, name)
-            gap = cases.total((Case((), terms.power(s, degree)), cases.negative(case)))
-            sign = TRUE if odd else atom(s.poly, Relation.GE)
+            root = terms.variable(self.ring, name)
+            gap = cases.total((Case((), terms.power(root, degree)), cases.negative(case)))
+            sign = TRUE if odd else atom(root.poly, Relation.GE)
             definition = conj((sign, cases.holds(gap._replace(guards=case.guards), Relation.EQ)))
             return Auxiliary(name, definition, conj(case.guards))
 
@@ -284,18 +267,18 @@ class Valuation(Auxiliaries):
             return self.times(self.sum([terms.number(self.ring, -b), signed]), scale)
 
         def made(name: str) -> Auxiliary:
-            s = self.ring.var(name)
+            value = self.ring.var(name)
             zero = self.ring.from_terms({})
             for k, coefficient in enumerate(coefficients):
-                zero = zero + self.ring.constant(coefficient) * s**k
+                zero = zero + self.ring.constant(coefficient) * value**k
             low, high = (Fraction(end) for end in number.interval())
             ends = ((low, Relation.GE), (high, Relation.LE))
-            near = (atom(s * end.denominator - end.numerator, relation) for end, relation in ends)
+            near = (atom(value * end.denominator - end.numerator, relation) for end, relation in ends)
             return Auxiliary(name, conj((atom(zero, Relation.EQ), *near)), TRUE)
 
         return cases.plain(terms.variable(self.ring, self.named(("number", coefficients, number.index), made)))
 
-    def root(self, term: Root) -> Meaning:
+    def root(self, term: s.Root) -> Meaning:
         """``root(k, p, x)`` as a term."""
         k = self.constant(term.number, "the first argument of root is its number: root(2, x^2 - y, x)", term.at)
         poly = self.polynomial(term.poly, term.at)
@@ -322,24 +305,24 @@ class Valuation(Auxiliaries):
 
     # --- constants -------------------------------------------------------------------------------------------
     def rational(
-        self, term: Term, at: int, message: str = "an exponent must be a rational number, without variables"
+        self, term: s.Term, at: int, message: str = "an exponent must be a rational number, without variables"
     ) -> Fraction:
         """An exponent."""
-        if isinstance(term, Number):
+        if isinstance(term, s.Number):
             return Fraction(term.value)
         value = self.term(term)
         if not isinstance(value, Value) or not value.poly.is_constant:
             raise self.fail(message, at)
         return Fraction(value.poly.constant_value(), value.den)
 
-    def constant(self, term: Term, message: str, at: int) -> int:
+    def constant(self, term: s.Term, message: str, at: int) -> int:
         """An integer."""
         number = self.rational(term, at, message)
         if number.denominator != 1:
             raise self.fail(message, at)
         return int(number)
 
-    def polynomial(self, term: Term, at: int) -> Poly:
+    def polynomial(self, term: s.Term, at: int) -> Poly:
         """A polynomial, up to a positive factor."""
         value = self.term(term)
         if not isinstance(value, Value):

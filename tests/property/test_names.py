@@ -14,6 +14,7 @@ from hypothesis import strategies as st
 
 import qe
 from qe.errors import CertificateRejected, InputError
+from qe.exact.number import point_text
 from qe.exact.ring import Poly, Ring, format_poly
 from qe.formula.build import atom, conj, convert, disj, exists, forall
 from qe.formula.evaluate import holds_at
@@ -92,6 +93,33 @@ def test_text_and_json(formula: Formula) -> None:
     assert written.isprintable()
     assert same(text.read(written), formula), written
     assert json_format.read(json_format.write(formula)) == formula
+
+
+@given(st.permutations(("a", "b", "ab", "x", "ax", "aab")), st.data())
+def test_names_like_products_are_read_as_they_were_written(chosen: list[str], data: st.DataObject) -> None:
+    """``ab < a + b`` was printed for a name ab, and is read as a product."""
+    formula = data.draw(formulas(names=chosen[:4], max_quantifiers=2, root_atoms=True))
+    written = text.write(formula)
+    assert same(text.read(written), formula), written
+
+
+@pytest.mark.parametrize("bound", ["b", "ab", "a"])
+def test_answers_about_names_like_products_are_read_as_they_were_printed(bound: str) -> None:
+    ring = Ring.of(("a", "b", "ab"))
+    a, b, ab = (ring.var(name) for name in ring.names)
+    conditions = conj((atom(ab - a - b, Relation.LE), atom(a - b, Relation.GE), atom(b, Relation.GE)))
+    asked = exists([bound], conditions)
+    assert qe.equivalent(str(qe.eliminate(asked)), asked) and qe.equivalent(str(asked), asked)
+    solved = qe.solve(conditions, bound, check=True)
+    assert solved.guarantee is qe.Guarantee.CHECKED
+    assert qe.equivalent(str(solved), conditions) and qe.equivalent(solved.formula, conditions)
+    region = qe.region(conditions)
+    assert all(qe.equivalent(str(cell), cell.formula) for cell in region.cells)
+    (point,) = qe.find(conditions)
+    assert qe.equivalent(
+        point_text(point).replace(",", " and"),
+        conj([atom(ring.var(n) - int(v), Relation.EQ) for n, v in point.items()]),
+    )
 
 
 @given(named_polynomials())

@@ -77,7 +77,9 @@ def noted_in(given: object, format: str = "text") -> list[str]:
     ("all x. 2*ax² > b", "text", "ax is read as the product a*x"),
     ("ex x. x > 0 and ax = 1", "text", "ax is one name; a product is written a*x"),
     ("ex x, y. a*x = 1", "text", "y does not occur"),
-    ("a + b > ab", "text", "ab is one name; a product is written a*b"),
+    ("a + b > ab", "text", "ab is read as the product a*b"),
+    ("a + b > 2*ab", "text", "ab is one name; a product is written a*b"),
+    (["a + b > 0", "ab = 1"], "text", "ab is read as the product a*b"),
     ("x^2 > k(x + 1)", "text", "k(…) is the product k*(…)"),
     ("all a. (ex x. a > 0)", "text", "x does not occur"),
     (["a > 0", "ex x. ax < 1"], "text", "ax is read as the product a*x"),
@@ -104,7 +106,7 @@ def test_a_quantified_variable_that_does_not_occur_is_noted(given: object, forma
     (r"\forall a,b > 0,\ a + b > c", "all a, b. a > 0 and b > 0 -> a + b > c"),
     ("x > 0 &and y > 0", "x > 0 and y > 0"),
     ("x^2 - 2mx + m + 2 > 0 for all x", "all x. x^2 - 2*m*x + m + 2 > 0"),
-    ("2ax + ax > x and a > 1", "2*`ax` + `ax` > x and a > 1"),  # a name elsewhere
+    ("2ax + ax > x and a > 1", "2*a*x + a*x > x and a > 1"),
     ("ex x. ax + 2x = 0", "ex x. `ax` + 2*x = 0"),
     ("for all a, b with a > b, b > 0: a > c", "all a, b. a > b and b > 0 -> a > c"),
     ("ex x. A*x^2 + B < 0, where A = a + 1, B = 2*c", "ex x. (a + 1)*x^2 + 2*c < 0"),
@@ -193,7 +195,7 @@ def test_commands_of_other_systems_are_read_as_such(typed: str) -> None:
     assert qe.equivalent(typed, "a >= 0")
 
 
-@each(("x + y = 3, xy = 2", "x = 1 and y = 2 or\nx = 2 and y = 1"), ("xy = x*y and x = 1", "x = 1 and y = xy"))
+@each(("x + y = 3, xy = 2", "x = 1 and y = 2 or\nx = 2 and y = 1"), ("xy = x*y and x = 1", "x = 1 and y = `xy`"))
 def test_a_product_of_variables_that_are_solved_for_needs_no_sign(typed: str, said: str) -> None:
     assert str(qe.solve(typed)) == said
     assert qe.find("x + y = 3, xy = 2 and x < y") == [{"x": 1, "y": 2}]
@@ -241,6 +243,36 @@ def test_a_product_without_a_sign_is_read_where_a_term_is_optimised(
     """The least value of ``a + b`` under ``ab = 1`` was 0."""
     with pytest.warns(qe.DoubtfulInput, match=r"ab is read as the product a\*b"):
         assert qe.minimize(term, given).value == value
+
+
+@each(("6", True), ("5", False))
+def test_letters_side_by_side_are_read_alike_at_every_door(product: str, holds: bool) -> None:
+    """``a = 2, b = 3, ab = 5`` had solutions for ``eliminate`` and ``decide``, and none for ``solve`` and ``find``."""
+    typed = f"a = 2, b = 3, ab = {product}"
+    with pytest.warns(qe.DoubtfulInput, match=r"ab is read as the product a\*b"):
+        found = (
+            str(qe.eliminate(typed)) != "false",
+            qe.decide(f"exists a, b: {typed.replace(',', ' and')}"),
+            qe.find_instance(typed) is not None,
+            bool(qe.find(typed)),
+            str(qe.solve(typed)) != "false",
+            bool(qe.solve(typed, "a, b")),
+            not qe.region(typed).is_empty,
+            qe.minimize("a", typed).value is not None,
+            qe.minimize("ab", "a = 2, b = 3").value == int(product),
+            qe.equivalent(f"ab = {product}", "a = a and b = b", assuming="a = 2, b = 3"),
+            qe.decide(f"ab = {product}", assuming="a = 2 and b = 3"),
+        )
+    assert found == (holds,) * len(found)
+
+
+def test_names_that_are_quantified_or_listed_are_no_products() -> None:
+    assert str(qe.eliminate("ex ab. ab = a + b and ab > 0")) == "a + b > 0"
+    assert str(qe.solve("ab = a + b", "ab")) == "`ab` = a + b"
+    with pytest.raises(qe.InputError, match="write `ab` there"):
+        qe.decide("all a, b: a + b > ab and (ex ab. ab > 0)")
+    with pytest.warns(qe.DoubtfulInput, match=r"ax is read as the product a\*x"):
+        assert str(qe.solve("ax = b and a > 0", "x")) == "a > 0 and x = b/a"
 
 
 def test_a_comma_in_an_order_is_no_variable() -> None:

@@ -10,18 +10,7 @@ from typing import TYPE_CHECKING, Any
 from markupsafe import Markup
 
 from bezier.curves.scalar import brief, described
-from bezier.methods.control.optimal_path import (
-    Members,
-    SystemPlan,
-    begun,
-    drawn,
-    elimination,
-    optimum_members,
-    path_through,
-    restored,
-    restored_optimum,
-    verified,
-)
+from bezier.methods.control import optimal_path
 from bezier.methods.control.system import System
 from bezier.methods.control.terms import named_multipliers
 from bezier.methods.cubic import formula as cubic
@@ -57,7 +46,7 @@ class Trivial:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, repr=False)
-class CubicPlan(SystemPlan):
+class CubicPlan(optimal_path.SystemPlan):
     """``slowest``: of each curve of the path (empty without a path)."""
 
     slowest: Mapping[str, Slowest]
@@ -66,7 +55,7 @@ class CubicPlan(SystemPlan):
 
 def begin(problem: Problem, clock: Clock) -> Begun:
     """The path of formula (7)."""
-    return begun(problem, cubic.system(problem), clock)
+    return optimal_path.begun(problem, cubic.system(problem), clock)
 
 
 def finish(given: Begun, clock: Clock) -> CubicPlan:
@@ -76,7 +65,7 @@ def finish(given: Begun, clock: Clock) -> CubicPlan:
     with clock.step("speed"):
         fields = found | _speed_fields(given.problem, system, given.path)
     members = _members(system, found["optimum"].certificate)
-    return CubicPlan(**verified(fields, members, clock), eliminations={FORMULA: found["answer"]})
+    return CubicPlan(**optimal_path.verified(fields, members, clock), eliminations={FORMULA: found["answer"]})
 
 
 def questions(problem: Problem) -> dict[str, Formula]:
@@ -87,14 +76,14 @@ def questions(problem: Problem) -> dict[str, Formula]:
 def restored_plan(problem: Problem, certificate: Certificate) -> CubicPlan:
     """The plan that the certificates of a folder prove. Raises ``CertificateRejected``."""
     system = cubic.system(problem)
-    optimum = restored_optimum(system, certificate)
-    fields = drawn(problem, system, optimum)
+    optimum = optimal_path.restored_optimum(system, certificate)
+    fields = optimal_path.drawn(problem, system, optimum)
     fields |= _speed_fields(problem, system, fields["path"])
-    return CubicPlan(**restored(fields, _members(system, optimum.certificate)))
+    return CubicPlan(**optimal_path.restored(fields, _members(system, optimum.certificate)))
 
 
-def _members(system: System, certificate: Certificate) -> Members:
-    return [elimination(system), *optimum_members(certificate)]
+def _members(system: System, certificate: Certificate) -> optimal_path.Members:
+    return [optimal_path.elimination(system), *optimal_path.optimum_members(certificate)]
 
 
 def _speed_fields(problem: Problem, system: System, path: Path | None) -> dict[str, Any]:
@@ -117,7 +106,7 @@ def _remarks(problem: Problem) -> tuple[str, ...]:
 
 def _trivial(problem: Problem, system: System) -> Trivial:
     points = system.points(cubic.trivial_choice(problem))
-    path = path_through(problem, system, points)
+    path = optimal_path.path_through(problem, system, points)
     return Trivial(path, system.violated(points), slowest_of(path))
 
 

@@ -11,19 +11,7 @@ import qe
 from bezier.curves.scalar import Vector, rational, sign
 from bezier.curves.workspace import Workspace, WorkspaceKind
 from bezier.input.stored import numbers
-from bezier.methods.control.optimal_path import (
-    Members,
-    SystemPlan,
-    answered,
-    begun,
-    body_of,
-    drawn,
-    elimination,
-    optimum_members,
-    restored,
-    restored_optimum,
-    verified,
-)
+from bezier.methods.control import optimal_path
 from bezier.methods.control.system import System
 from bezier.methods.control.terms import check_optimum_of, coordinate_terms, member
 from bezier.methods.quadratic import formula as quadratic
@@ -72,7 +60,7 @@ class Gap:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, repr=False)
-class QuadraticPlan(SystemPlan):
+class QuadraticPlan(optimal_path.SystemPlan):
     """``region``: of Q1. ``gap``: what the printed formula leaves open about the table."""
 
     region: Any
@@ -82,7 +70,7 @@ class QuadraticPlan(SystemPlan):
 
 def begin(problem: Problem, clock: Clock) -> Begun:
     """The path of formula (8)."""
-    return begun(problem, quadratic.system(problem), clock)
+    return optimal_path.begun(problem, quadratic.system(problem), clock)
 
 
 def finish(given: Begun, clock: Clock) -> QuadraticPlan:
@@ -98,7 +86,7 @@ def finish(given: Begun, clock: Clock) -> QuadraticPlan:
         gap = _gap(problem, region, given.path, clock)
     fields = found | {"region": region, "gap": gap, "balls": quadratic.three_balls(problem)}
     members = certificates(found["system"], region, optimum, gap)
-    return QuadraticPlan(**verified(fields, members, clock), eliminations={FORMULA: answer, **gap.answers})
+    return QuadraticPlan(**optimal_path.verified(fields, members, clock), eliminations={FORMULA: answer, **gap.answers})
 
 
 def questions(problem: Problem) -> dict[str, Formula]:
@@ -108,10 +96,10 @@ def questions(problem: Problem) -> dict[str, Formula]:
     return {name: statement.formula for name, statement in statements.items()}
 
 
-def certificates(system: System, region: qe.Region, optimum: Any, gap: Gap) -> Members:
+def certificates(system: System, region: qe.Region, optimum: Any, gap: Gap) -> optimal_path.Members:
     """The labelled certificates of a plan, those of its path left out."""
-    result = [elimination(system), (REGION, region.certificate)]
-    return [*result, *optimum_members(optimum.certificate), *gap.certificates]
+    result = [optimal_path.elimination(system), (REGION, region.certificate)]
+    return [*result, *optimal_path.optimum_members(optimum.certificate), *gap.certificates]
 
 
 def _gap(problem: Problem, region: Any, path: Path | None, clock: Clock) -> Gap:
@@ -119,7 +107,7 @@ def _gap(problem: Problem, region: Any, path: Path | None, clock: Clock) -> Gap:
 
     ``region``: the problem's own region, which is the corrected one for a hemisphere.
     """
-    leaves = answered(qe.eliminate(quadratic.leaving(problem).formula, timeout=clock.remaining()))
+    leaves = optimal_path.answered(qe.eliminate(quadratic.leaving(problem).formula, timeout=clock.remaining()))
     floor = Workspace(WorkspaceKind.HEMISPHERE, problem.workspace.radius_squared).floor
     chosen = prove(path.curves, (floor,)) if path else ()
     if leaves.truth is False:
@@ -134,7 +122,9 @@ def _gap(problem: Problem, region: Any, path: Path | None, clock: Clock) -> Gap:
     shown = ((BELOW, example_certificate(problem, example, leaves.certificate)),)
     if problem.workspace.kind is WorkspaceKind.HEMISPHERE:
         return Gap(example, region, chosen, shown, {TABLE: leaves})
-    answer = answered(qe.eliminate(quadratic.corrected(problem).statement().formula, timeout=clock.remaining()))
+    answer = optimal_path.answered(
+        qe.eliminate(quadratic.corrected(problem).statement().formula, timeout=clock.remaining())
+    )
     smaller = qe.region(answer.formula, order=quadratic.FREE, timeout=clock.remaining())
     return Gap(example, smaller, chosen, shown, {TABLE: leaves, CORRECTED: answer})
 
@@ -164,7 +154,7 @@ def example_certificate(
     known = [v for v in values if v is not None]
     if len(known) == len(values):
         order = quadratic.FREE + quadratic.QUANTIFIED
-        return qe.Certificate.witness(body_of(quadratic.leaving(problem), order), order, known)
+        return qe.Certificate.witness(optimal_path.body_of(quadratic.leaving(problem), order), order, known)
     if certificate is None:
         raise InternalError("an irrational example without a certificate")
     return certificate
@@ -173,12 +163,12 @@ def example_certificate(
 def restore(problem: Problem, certificate: Certificate) -> QuadraticPlan:
     """The plan that the certificates of a folder prove. Raises ``CertificateRejected``."""
     system = quadratic.system(problem)
-    optimum = restored_optimum(system, certificate)
-    fields = drawn(problem, system, optimum)
+    optimum = optimal_path.restored_optimum(system, certificate)
+    fields = optimal_path.drawn(problem, system, optimum)
     region = _region(system, certificate, infeasible=fields["path"] is None)
     gap = _restored_gap(problem, certificate, fields["path"])
     fields |= {"region": region, "gap": gap, "balls": quadratic.three_balls(problem)}
-    return QuadraticPlan(**restored(fields, certificates(system, region, optimum, gap)))
+    return QuadraticPlan(**optimal_path.restored(fields, certificates(system, region, optimum, gap)))
 
 
 def _region(system: System, certificate: Certificate, *, infeasible: bool) -> qe.Region:
@@ -228,5 +218,5 @@ def _restored_gap(problem: Problem, certificate: Certificate, path: Path | None)
 def _check_example(problem: Problem, example: Certificate) -> None:
     """The witness is about the question of this problem."""
     order = quadratic.FREE + quadratic.QUANTIFIED
-    if is_about(example, exists(order, body_of(quadratic.leaving(problem), order))) != TRUE:
+    if is_about(example, exists(order, optimal_path.body_of(quadratic.leaving(problem), order))) != TRUE:
         raise CertificateRejected(BELOW, "not the question of this problem")

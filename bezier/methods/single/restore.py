@@ -17,22 +17,9 @@ from bezier.input import stored
 from bezier.input.task import Axis, Task, Values
 from bezier.methods.control.optimal_path import restored
 from bezier.methods.control.terms import member
+from bezier.methods.single import plan
 from bezier.methods.single.closed import NoCurve, ProvedCurve, plain_program
 from bezier.methods.single.cuts import Cut, CutKind, Model
-from bezier.methods.single.plan import (
-    CLOSED,
-    NAME,
-    PIECEWISE_DEGREE,
-    Printed,
-    SinglePlan,
-    known,
-    labelled,
-    lowest_label,
-    of_axis,
-    printed_of,
-    sum_of,
-    task_of,
-)
 from bezier.methods.single.program import Chosen, curve, dips, objective, program
 from bezier.methods.single.simplex import Contradiction, LinearOptimum, LinearProgram, certificate
 from bezier.paths.path import prove
@@ -49,14 +36,16 @@ class Told:
     least: str
 
 
-def restore(problem: Problem, evidence: Certificate, stated: Stated) -> SinglePlan:
+def restore(problem: Problem, evidence: Certificate, stated: Stated) -> plan.SinglePlan:
     """The plan that the files of a folder prove. Raises ``CertificateRejected``."""
-    given = task_of(problem)
-    chosen = tuple(_chosen(given, axis, of_axis(axis.name), evidence) for axis in given.raised)
+    given = plan.task_of(problem)
+    chosen = tuple(_chosen(given, axis, plan.of_axis(axis.name), evidence) for axis in given.raised)
     printed = _printed(problem, given, chosen, evidence)
     closed, attainable = _closed(problem, given, printed, evidence, stated)
-    fields = known(problem, chosen, printed, closed)
-    return SinglePlan(**restored(fields, labelled(fields)), pieces=_pieces(given, stated), attainable=attainable)
+    fields = plan.known(problem, chosen, printed, closed)
+    return plan.SinglePlan(
+        **restored(fields, plan.labelled(fields)), pieces=_pieces(given, stated), attainable=attainable
+    )
 
 
 # --- linear programs -----------------------------------------------------------------------------------------------
@@ -96,22 +85,22 @@ def _numbers(rows: Any, label: str) -> Values:
     return tuple(stored.rational(row[0], label) for row in rows)
 
 
-def _printed(problem: Problem, given: Task, chosen: tuple[Chosen, ...], evidence: Certificate) -> Printed | None:
+def _printed(problem: Problem, given: Task, chosen: tuple[Chosen, ...], evidence: Certificate) -> plan.Printed | None:
     """The curve of (4), and the other curve with the same sums that the certificates hold."""
     if any(isinstance(item.outcome, Contradiction) for item in chosen):
         return None
-    others = [_chosen(given, item.axis, lowest_label(item.axis.name), evidence) for item in chosen]
+    others = [_chosen(given, item.axis, plan.lowest_label(item.axis.name), evidence) for item in chosen]
     lower = {item.axis.name: item.values for item in others if item.values is not None}
     if len(lower) < len(others):
-        raise CertificateRejected(lowest_label(chosen[0].axis.name), "expected an optimum")
-    return printed_of(problem, given, chosen, lower)
+        raise CertificateRejected(plan.lowest_label(chosen[0].axis.name), "expected an optimum")
+    return plan.printed_of(problem, given, chosen, lower)
 
 
 # --- Method 1* -----------------------------------------------------------------------------------------------------
 
 
 def _closed(
-    problem: Problem, given: Task, printed: Printed | None, evidence: Certificate, stated: Stated
+    problem: Problem, given: Task, printed: plan.Printed | None, evidence: Certificate, stated: Stated
 ) -> tuple[ProvedCurve | NoCurve | None, str]:
     """What Method 1* found, and its formula of all sums; (None, "") where it was not needed."""
     if printed is None or printed.holds:
@@ -121,7 +110,7 @@ def _closed(
     cuts = tuple(_cut(model, item, f"summary.json: cuts[{i}]") for i, item in listed)
     base, cost = plain_program(model, cuts)
     try:
-        outcome = _outcome(base, cost, CLOSED, evidence)
+        outcome = _outcome(base, cost, plan.CLOSED, evidence)
     except CertificateRejected as error:
         raise CertificateRejected(f"certificate.json and summary.json, cuts: {error.step}", error.reason) from None
     proof = certificate(base, cost, outcome)
@@ -132,7 +121,7 @@ def _closed(
     if type(rounds) is not int or rounds < 0 or not isinstance(attainable, str):
         raise CertificateRejected("summary.json: closed", "expected rounds and the attainable sums")
     drawn, values = certified_curve(problem, given, stated)
-    return ProvedCurve(values, drawn, sum_of(given, values), outcome.value, cuts, proof, rounds), attainable
+    return ProvedCurve(values, drawn, plan.sum_of(given, values), outcome.value, cuts, proof, rounds), attainable
 
 
 def _cut(model: Model, stated: Any, place: str) -> Cut:
@@ -161,8 +150,8 @@ def certified_curve(problem: Problem, given: Task, stated: Stated) -> tuple[Bezi
     if stated.path is None:
         raise CertificateRejected("path.json", "missing, although a curve is claimed")
     points = stored.control_points(stated.path)
-    if tuple(points) != tuple(f"{NAME}{i}" for i in range(given.degree + 1)):
-        raise CertificateRejected("path.json: points", f"expected {NAME}0 to {NAME}{given.degree}")
+    if tuple(points) != tuple(f"{plan.NAME}{i}" for i in range(given.degree + 1)):
+        raise CertificateRejected("path.json: points", f"expected {plan.NAME}0 to {plan.NAME}{given.degree}")
     if any(not isinstance(c, Fraction) for point in points.values() for c in point):
         raise CertificateRejected("path.json: points", "expected rational numbers")
     drawn = Bezier(tuple(points.values()))
@@ -181,7 +170,7 @@ def certified_curve(problem: Problem, given: Task, stated: Stated) -> tuple[Bezi
             raise CertificateRejected("path.json: points", f"the {axis.name} coordinates do not satisfy (4)")
     for dip in dips(given, drawn):
         raise CertificateRejected("path.json: points", f"{dip.axis.name} is below the height at t = {dip.t}")
-    for proof in prove({NAME: drawn}, problem.workspace.conditions):
+    for proof in prove({plan.NAME: drawn}, problem.workspace.conditions):
         if isinstance(proof.outcome, Leaves):
             raise CertificateRejected("path.json: points", f"the curve leaves the {proof.condition.name}")
     return drawn, values
@@ -189,7 +178,7 @@ def certified_curve(problem: Problem, given: Task, stated: Stated) -> tuple[Bezi
 
 def _pieces(given: Task, stated: Stated) -> dict[str, Any]:
     """The formulas of the least sum for every height, as stated."""
-    if given.degree > PIECEWISE_DEGREE:
+    if given.degree > plan.PIECEWISE_DEGREE:
         return {}
     entries = stored.entry(stated.summary, "piecewise", dict, "summary.json: ")
     return {axis.name: Told(stored.entry(entries, axis.name, str, "summary.json: piecewise.")) for axis in given.raised}
