@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 import sys
 import warnings
-from collections.abc import Collection, Container, Iterable, Mapping, Sequence
+from collections.abc import Collection, Container, Iterable, Iterator, Mapping, Sequence
 from decimal import Decimal
 from fractions import Fraction
 from numbers import Real
@@ -178,9 +178,7 @@ def read_posed_constraints(given: AnyFormula, objective: AnyFormula) -> Read:
 def of_one_problem(*given: AnyFormula, listed: Collection[str] = ()) -> list[AnyFormula]:
     """What was given for one problem, alone or in lists, as ``qe.io.text.with_products`` has texts that are read by
     themselves, with a note on each product; ``listed``: variables that the caller names."""
-    texts = [
-        part for one in given for part in (one if isinstance(one, list | tuple) else [one]) if isinstance(part, str)
-    ]
+    texts = [*_texts(given)]
     if len(texts) < 2 and not listed:
         return [*given]
     from qe.io.text import with_products
@@ -190,9 +188,23 @@ def of_one_problem(*given: AnyFormula, listed: Collection[str] = ()) -> list[Any
     written = iter(texts)
 
     def put(part: AnyFormula) -> AnyFormula:
-        return [*map(put, part)] if isinstance(part, list | tuple) else next(written) if isinstance(part, str) else part
+        return (
+            [put(one) for one in part]
+            if isinstance(part, list | tuple)
+            else next(written)
+            if isinstance(part, str)
+            else part
+        )
 
-    return [*map(put, given)]
+    return [put(one) for one in given]
+
+
+def _texts(given: AnyFormula) -> Iterator[str]:
+    """The texts among what was given, in lists, too."""
+    if isinstance(given, str):
+        yield given
+    for part in given if isinstance(given, list | tuple) else ():
+        yield from _texts(part)
 
 
 def read_polynomial(given: AnyFormula, what: str, *, known: Container[str] = ()) -> tuple[Poly, Fraction]:

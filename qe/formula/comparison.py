@@ -13,6 +13,8 @@ from qe.formula.relation import Relation
 from qe.formula.syntax import Atom, Formula
 from qe.spelling import NUMBERS
 
+MOST_MOVED = 6
+"""Terms of an equation up to which some of them are moved to its right side."""
 Side = tuple[list[Monomial], Relation, list[Monomial], int]
 """The left side of a comparison, the relation, and the right side with its denominator."""
 End = tuple[list[Monomial], int]
@@ -41,7 +43,8 @@ def sides(poly: Poly, relation: Relation) -> Side:
 
     A bound of one variable is ``x <= 2/3``. Linear terms stand where they are positive, and so does the constant
     next to sums and powers of positive terms (``x^2 + y^2 <= 1``); a variable is compared with one other term
-    (``y <= x^2``). All else, as ``b^2 - 4*a*c`` and ``x^2 - 2*x - 1``, is compared with 0.
+    (``y <= x^2``), positive terms are equal to those that follow (``x^2 + y^2 = z^2``). All else, as
+    ``b^2 - 4*a*c > 0`` and ``x^2 - 2*x - 1 = 0``, is compared with 0.
     """
     parts, between, terms = _oriented(poly, relation)
     first, last = terms[0][1], terms[-1][1]
@@ -50,12 +53,14 @@ def sides(poly: Poly, relation: Relation) -> Side:
     if linear and len(terms) == 1:
         return _bounded(poly, relation)
     variable = [name for name, k in last] if sum(k for _, k in last) == 1 else []
-    if not linear and [c for c, _ in parts] == [1, -1] and variable and variable[0] not in dict(first):
-        return [(1, last)], between.flipped, [(1, first)], 1
+    coefficients = [c for c, _ in parts]
+    if not linear and coefficients == [terms[0][0], -1] and variable and variable[0] not in dict(first):
+        return [(1, last)], between.flipped, [(terms[0][0], first)], 1
     bounded = len(terms) < len(parts) and all(c > 0 for c, _ in terms) and (len(names) > 1 or len(terms) == 1)
     if bounded and len(terms) > 1 and all(c == terms[0][0] and [k for _, k in m] == [2] for c, m in terms):
         return _bounded(poly, relation)  # a sphere and its squared radius
-    if not (linear or bounded):
+    equal = between is Relation.EQ and 1 < len(parts) <= MOST_MOVED and len(names) > 1
+    if not (linear or bounded or (equal and coefficients == sorted(coefficients, key=lambda c: c < 0))):
         return parts, between, [], 1
     return [(c, m) for c, m in parts if c > 0], between, [(-c, m) for c, m in parts if c < 0], 1
 
