@@ -12,6 +12,7 @@ from itertools import pairwise
 
 from qe.formula.relation import Relation
 from qe.io import surface as s
+from qe.io.collecting import Names
 from qe.io.text_errors import SyntaxFailure
 from qe.spelling import WORD
 
@@ -36,7 +37,11 @@ def shared(names: Sequence[s.Name], condition: s.Node, before: s.Node | None, at
 
 
 def together(parts: Sequence[s.Node], at: int, *, quantified: bool = False) -> s.Node:
-    """The conditions as one; ``quantified``: quantifiers follow."""
+    """The conditions as one; ``quantified``: quantifiers follow. What has the variable of ``exists`` in front of it is
+    under that: ``exists t: x = t^2, y = t^3``."""
+    first, *rest = parts
+    if rest and isinstance(first, s.Quantification) and not first.universal and all(_has(p, first.names) for p in rest):
+        return first._replace(body=together([first.body, *rest], at))
     bare = [part.part if isinstance(part, s.Negation) else part for part in parts]
     mixed = len(parts) > 1 and any(isinstance(part, _LOOSE) for part in bare)
     scoped = bare if quantified else bare[:-1]
@@ -52,6 +57,13 @@ def together(parts: Sequence[s.Node], at: int, *, quantified: bool = False) -> s
         if isinstance(one, s.Comparison) and isinstance(other, s.Comparison) and _may_be_between(one, other):
             raise SyntaxFailure("0 < a, b < 1 is ambiguous; write and, as in 0 < a < 1 and 0 < b < 1", at)
     return s.Every(list(parts)) if len(parts) > 1 else parts[0]
+
+
+def _has(node: s.Node, names: Sequence[str]) -> bool:
+    """Whether one of the names occurs free in a formula."""
+    met: list[str] = []
+    Names(s.unplaced, lambda name, at: met.append(name)).part(node)
+    return not {*names}.isdisjoint(met)
 
 
 def _may_be_between(left: s.Comparison, right: s.Comparison) -> bool:

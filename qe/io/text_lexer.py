@@ -352,8 +352,9 @@ class State:
 
     def is_product(self, name: str, at: int) -> bool:
         """Whether a name that no quantifier binds is a product of its letters: no sign of a product is written and all
-        are names (``∃x, y: xy ≥ a``, ``a + b > ab``); one is the variable of a quantifier that stands nowhere else
-        (``ex x. ax^2 + b = 0``); or it stands behind a number alone and its letters elsewhere: ``x^2 - 2mx + m > 0``.
+        are names (``∃x, y: xy ≥ a``, ``a + b > ab``), or all but one, and one has a quantifier (``all x. x + kx > 0``);
+        one is the variable of a quantifier that stands nowhere else (``ex x. ax^2 + b = 0``); or it stands behind a
+        number alone and its letters elsewhere: ``x^2 - 2mx + m > 0``.
 
         Behind a division it stays a name."""
         if len(name) == 1 or not name.isalpha() or self.header or self.brackets[-1].divided or name in self.bound:
@@ -366,7 +367,9 @@ class State:
         factor = self.last == "NUMBER" and self.end == at and not self.alone[name]
         lone = [letter for letter in self.letters if self.words[letter] == 1]
         if not is_product(name, self.words if factor else self.names, lone):
-            return False
+            strange = [letter for letter in name if letter not in self.names]
+            if len(strange) != 1 or self.letters.isdisjoint(name) or self.text.startswith("(", at + len(name)):
+                return False
         self.products.add(name)
         return True
 

@@ -130,7 +130,7 @@ def test_all_notes_of_a_command_stand_in_one_line() -> None:
 
 
 def test_what_is_refused_is_told_in_one_line() -> None:
-    done = command.run("qe", "decide", "all a, b > 0. abc = 1 -> a + b >= 2")
+    done = command.run("qe", "decide", "all a, b > 0. abc = 1 -> a + 2*b >= 2")
     note, error = done.stderr.splitlines()
     assert (
         done.returncode == 2 and "abc is one name; a product is written a*b*c" in note and "free here: abc (" in error

@@ -75,7 +75,9 @@ def noted_in(given: object, format: str = "text") -> list[str]:
 @each(
     ("ex x. ax^2 + bx + c = 0", "text", "ax is read as the product a*x; bx is read as the product b*x"),
     ("all x. 2*ax² > b", "text", "ax is read as the product a*x"),
-    ("ex x. x > 0 and ax = 1", "text", "ax is one name; a product is written a*x"),
+    ("ex x. x > 0 and ax = 1", "text", "ax is read as the product a*x"),
+    ("ex x. x > 0 and ax = 2*x", "text", "ax is one name; a product is written a*x"),
+    ("x^2 + kx + 9 >= 0 for all real x", "text", "kx is read as the product k*x"),
     ("ex x, y. a*x = 1", "text", "y does not occur"),
     ("a + b > ab", "text", "ab is read as the product a*b"),
     ("a + b > 2*ab", "text", "ab is one name; a product is written a*b"),
@@ -100,14 +102,14 @@ def test_a_quantified_variable_that_does_not_occur_is_noted(given: object, forma
     ("∃x. ax^2 + bx + c > 0", "∃x. a*x^2 + b*x + c > 0"),
     ("exists x, y: xy = a and 2bx > 1", "exists x, y: x*y = a and 2*b*x > 1"),
     ("all x. sqrt(ax) <= b", "all x. sqrt(a*x) <= b"),
-    ("ex x. x^2 + kx = 1", "ex x. x^2 + `kx` = 1"),
+    ("ex x. x^2 + kx = 1", "ex x. x^2 + k*x = 1"),
     ("forall a, b, c > 0, a + b + c = 3 -> a*b*c <= d", "forall a, b, c > 0: a + b + c = 3 -> a*b*c <= d"),
     ("exists x > 0, y > 1, x + y = a", "exists x > 0: exists y > 1: x + y = a"),
     (r"\forall a,b > 0,\ a + b > c", "all a, b. a > 0 and b > 0 -> a + b > c"),
     ("x > 0 &and y > 0", "x > 0 and y > 0"),
     ("x^2 - 2mx + m + 2 > 0 for all x", "all x. x^2 - 2*m*x + m + 2 > 0"),
     ("2ax + ax > x and a > 1", "2*a*x + a*x > x and a > 1"),
-    ("ex x. ax + 2x = 0", "ex x. `ax` + 2*x = 0"),
+    ("ex x. ax + 2x = 0", "ex x. a*x + 2*x = 0"),
     ("for all a, b with a > b, b > 0: a > c", "all a, b. a > b and b > 0 -> a > c"),
     ("ex x. A*x^2 + B < 0, where A = a + 1, B = 2*c", "ex x. (a + 1)*x^2 + 2*c < 0"),
     ("for all x: mx² + (m-1)x < 0", "for all x: m*x² + (m-1)*x < 0"),  # no sign of a product, all letters are names
@@ -138,6 +140,8 @@ def test_a_quantified_variable_that_does_not_occur_is_noted(given: object, forma
     ("ex x. x > 0 and x < a", "ex x. (x > 0 and x < a)"),
     ("(a + b)^2 >= 4ab + c for all real a, b", "all a, b. (a + b)^2 >= 4*a*b + c"),
     ("x + y > a for all x, y > 0", "all x, y. x > 0 and y > 0 -> x + y > a"),
+    ("exists t: x = t^2, y = t^3", "ex t. x = t^2 and y = t^3"),
+    ("exists t > 0: x = t, y = t^2", "ex t. t > 0 and x = t and y = t^2"),
     ("x + y > a, for all x > 0, y > 0", "all x. x > 0 -> (all y. y > 0 -> x + y > a)"),
     ("a > 0, for all x, x^2 > b", "a > 0 and (all x. x^2 > b)"),
     ("exists 0 < x < 1 with x^2 = a", "ex x. 0 < x < 1 and x^2 = a"),
@@ -444,7 +448,7 @@ def test_certificates_of_former_versions_are_refused_in_one_line(version: object
 def test_letters_side_by_side_are_told_to_be_one_name() -> None:
     noted = pytest.warns(qe.DoubtfulInput, match=r"abc is one name; a product is written a\*b\*c")
     with noted, pytest.raises(qe.InputError, match=r"free: abc \(all abc"):
-        qe.decide("all a, b > 0. abc = 1 -> a + b >= 2")
+        qe.decide("all a, b > 0. abc = 1 -> a + 2*b >= 2")
     with pytest.raises(qe.InputError, match=r"free: area "):
         qe.decide("all a, r. area = a*r")
 

@@ -100,6 +100,8 @@ from tests.tables import each
     ("x > 0, y > 1 or z > 2", 5, "is ambiguous", ""),
     ("a > 0, b > 0 -> a*b > 0", 5, "is ambiguous", ""),
     ("ex y. y > x, x > 0", 11, "is ambiguous", ""),
+    ("ex y. y > x or y = 1, y > 0", 20, "is ambiguous", ""),
+    ("all y. y > x, y > 0", 12, "is ambiguous", ""),
     ("a > 0 <-> x^2 + a > 0 for all x", 22, "is ambiguous", ""),
     ("ex y. y > x for all x", 12, "is ambiguous", ""),
     ("x > 0 ex y. y > x", 6, "stands in front", ""),
