@@ -42,9 +42,9 @@ def is_product(name: str, letters: Container[str], bound: Container[str] = ()) -
     return len(name) > 1 and name.isalpha() and (all(x in letters for x in name) or any(x in bound for x in name))
 
 
-def quoted(name: str, beside: Container[str] = ()) -> str:
-    """The name as text reads it, wherever it stands, ``beside`` others."""
-    return between_quotes(name) if name in CONSTANTS or is_product(name, beside) else quoted_if_needed(name)
+def quoted(name: str, others: Container[str] = ()) -> str:
+    """The name as text reads it, wherever it stands, among ``others``."""
+    return between_quotes(name) if name in CONSTANTS or is_product(name, others) else quoted_if_needed(name)
 
 
 def quoted_if_needed(name: str) -> str:

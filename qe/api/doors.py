@@ -64,13 +64,3 @@ _LISTED = (
     Door("verify", Limited, "Verify a certificate.", "FILE"),
 )
 DOORS: Mapping[str, Door] = {door.name: door for door in _LISTED}
-
-
-def table_of_doors() -> str:
-    """All doors as a table in Markdown."""
-    rows = []
-    for door in DOORS.values():
-        says = door.says.replace("FORMULA", "a formula").replace("CONSTRAINTS", "constraints")
-        names = ", ".join(f"`qe.{name}`" for name in (door.name, *door.also))
-        rows.append(f"| {says} | {names} | `qe {door.name}` | `:{door.name} {door.line}` |")
-    return "\n".join(["| what | Python | command | at the prompt |", "|---|---|---|---|", *rows])

@@ -214,7 +214,9 @@ def with_settings(kind: type) -> Callable[[Callable[P, Result]], Callable[P, Res
             for name, (hint, s) in table.items()
         ]
         called.__signature__ = signature.replace(parameters=[*listed, *keywords])  # type: ignore[attr-defined]
-        meanings = "\n".join(_meaning(name, s) for name, (_, s) in table.items())
+        listing = (f"* ``{name}``: {s.says}" for name, (_, s) in table.items())
+        fill = partial(textwrap.fill, width=100, subsequent_indent="  ", break_on_hyphens=False)
+        meanings = "\n".join(map(fill, listing))
         called.__doc__ = f"{inspect.cleandoc(function.__doc__ or '')}\n\nSettings:\n\n{meanings}"
         return called
 
@@ -225,18 +227,3 @@ def _unexpected(function: str, name: str, names: Iterable[str]) -> str:
     near = get_close_matches(name, sorted(names), 1)
     meant = f". Did you mean {near[0]!r}?" if near else ""
     return f"{function}() got an unexpected keyword argument {name!r}{meant}"
-
-
-def _meaning(name: str, setting: Setting) -> str:
-    return textwrap.fill(f"* ``{name}``: {setting.says}", 100, subsequent_indent="  ", break_on_hyphens=False)
-
-
-def table_of_settings() -> str:
-    """All settings of ``qe.eliminate`` as a table in Markdown."""
-    rows = [f"| `{name}` | {_shown(s.default)} | {s.says} |" for name, (_, s) in settings_in(Elimination).items()]
-    return "\n".join(["| keyword | default | meaning |", "|---|---|---|", *rows])
-
-
-def _shown(default: object) -> str:
-    value = default.value if isinstance(default, Method | Projection) else default
-    return "no listener" if callable(value) else f"`{value!r}`"

@@ -103,16 +103,16 @@ def read_question(channel: Channel, source: Source, *, solved: Sequence[str] = (
     """The formula of a source, to be ``solved`` for these, and what it assumes; its size is the first thing to be known
     about the run."""
     from qe.api.input import note_doubts
-    from qe.formula.features import features
+    from qe.formula.traverse import atoms, bound_variables
 
     read = formats.read_posed
     formula, known = read(source.text, source.format.value, source=source.name, total_division=source.total_division)
     note_doubts(source.text, formula, source.format.value, solved)
-    size = features(formula)
+    bound, polys = bound_variables(formula), [part.poly for part in atoms(formula)]
     channel.fact(
         "formula",
-        f"{size.atoms} atoms of degree up to {size.total_degree} in {len(size.free) + len(size.bound)} variables, "
-        f"{len(size.bound)} of them quantified",
+        f"{len(polys)} atoms of degree up to {max((p.total_degree for p in polys), default=0)} in "
+        f"{len(formula.free) + len(bound)} variables, {len(bound)} of them quantified",
     )
     return formula, known
 

@@ -12,10 +12,10 @@ from qe.elimination.protocol import Context
 from qe.elimination.samples import pulls, relaxed
 from qe.formula.build import exists
 from qe.formula.evaluate import holds_at
-from qe.formula.features import features, length
+from qe.formula.features import length
 from qe.formula.normal import nnf
 from qe.formula.syntax import FALSE, TRUE, Atom, Formula
-from qe.formula.traverse import atoms, conjuncts
+from qe.formula.traverse import atoms, bound_variables, conjuncts
 from qe.options import Budget
 from qe.proof.step import Nested
 
@@ -161,7 +161,7 @@ def _closes(question: Formula) -> bool:
     """Whether quantifying all its variables may make a question easier: it has quantifiers, and few variables."""
     if question.is_quantifier_free:
         return False
-    return len(question.free) + len(features(question).bound) <= MANY
+    return len(question.free) + len(bound_variables(question)) <= MANY
 
 
 def _is_cheap(formula: Formula, size: int) -> bool:

@@ -12,9 +12,8 @@ from qe.exact.number import Values
 from qe.exact.ring import Ring, format_poly
 from qe.formula.block import Block
 from qe.formula.build import atom, conj, convert
-from qe.formula.features import features
 from qe.formula.syntax import TRUE, And, Exists, Formula, Quantified
-from qe.formula.traverse import atoms, map_atoms, subformulas
+from qe.formula.traverse import atoms, bound_variables, map_atoms, subformulas
 from qe.options import Options, Stage
 from qe.proof.derivation import negated
 from qe.proof.run_log import RunLog
@@ -86,7 +85,7 @@ class Definitions:
         ready = prepare(question, budget=context.budget, enabled={StepKind.DEFINITION}, log=context.log)
         if ring is None or not any(step.rule == StepKind.LINEAR.value for step in context.log.steps(mark)):
             return None
-        gone = {*features(question).bound} - {*features(ready.formula).bound}
+        gone = {*bound_variables(question)} - {*bound_variables(ready.formula)}
         narrow = Ring.of(name for name in ring.names if name not in gone)  # as without the names: orders go by the ring
 
         def back(rest: Outcome) -> Outcome:

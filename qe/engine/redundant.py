@@ -17,10 +17,10 @@ from qe.elimination.protocol import Context
 from qe.errors import Unable
 from qe.exact.number import Values
 from qe.formula.build import conj, disj, exists
-from qe.formula.features import features, length
+from qe.formula.features import length
 from qe.formula.normal import nnf
 from qe.formula.syntax import FALSE, TRUE, And, Atom, Constant, Formula, Or, Relation
-from qe.formula.traverse import atoms
+from qe.formula.traverse import atoms, bound_variables
 from qe.options import Stage
 from qe.proof.step import Nested, Place, Step
 from qe.simplifier.simplify import simplify
@@ -168,7 +168,7 @@ def without_part(formula: Formula, place: Sequence[int]) -> Formula:
 def is_cheap_sentence(sentence: Formula) -> bool:
     """Whether an existential sentence of this size is decided with little work."""
     degree = max((a.poly.total_degree for a in atoms(sentence)), default=0)
-    return degree <= DEGREES.get(len(features(sentence).bound), MANY_DEGREE) and _is_suited(sentence)
+    return degree <= DEGREES.get(len(bound_variables(sentence)), MANY_DEGREE) and _is_suited(sentence)
 
 
 def _unsettled(formula: Formula, points: Points, kept: set[Formula], known: Formula = TRUE) -> Iterator[Part]:

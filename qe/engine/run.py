@@ -22,10 +22,9 @@ from qe.exact.ring import Ring
 from qe.formula.block import Block
 from qe.formula.build import conj, convert, disj, exists, forall, neg
 from qe.formula.counting import without_root_atoms
-from qe.formula.features import features
 from qe.formula.normal import nnf, rename_apart, without_clashes
 from qe.formula.syntax import FALSE, TRUE, And, Constant, Formula, Not, Or
-from qe.formula.traverse import subformulas
+from qe.formula.traverse import bound_variables, subformulas
 from qe.options import Budget, Options
 from qe.proof.answer import Answer, Status
 from qe.proof.run_log import RunLog
@@ -266,7 +265,7 @@ class _Run:
         if not formula.is_quantifier_free and attempt.scope is not Scope.INNER:
             if problem.formula in subformulas(formula):  # conditions around it would not change what comes next
                 raise alone(name)
-            self.log.switch(name, f"{', '.join(features(formula).bound)} left for another method")
+            self.log.switch(name, f"{', '.join(bound_variables(formula))} left for another method")
             formula = self.without_quantifiers(formula)
         if attempt.shorten and problem.free and problem.formula != self.asked:
             formula = self.shortened(formula)

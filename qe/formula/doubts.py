@@ -8,7 +8,7 @@ from collections.abc import Collection, Iterable, Iterator, Sequence
 
 from qe.formula.syntax import Exists, ForAll, Formula
 from qe.formula.traverse import children
-from qe.spelling import KEYWORDS, WORD
+from qe.spelling import KEYWORDS, WORD, is_product
 
 _NUMBERS = ("e", "i", "E", "I")
 """Letters that are numbers to many readers, and variables here."""
@@ -67,8 +67,7 @@ def joined_names(names: Iterable[str], letters: Collection[str]) -> dict[str, st
 
 def _made_of(names: Collection[str]) -> dict[str, str]:
     """The names that are made of others of them alone, as ``ab`` beside a and b, each with the product of these."""
-    known = {*names}
-    return {name: "*".join(name) for name in names if len(name) > 1 and known.issuperset(name)}
+    return {name: "*".join(name) for name in names if is_product(name, names)}
 
 
 def products_as_names(names: Collection[str], noted: Collection[str]) -> tuple[str, ...]:

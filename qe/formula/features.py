@@ -3,35 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
 
 from qe.formula.syntax import Formula, Or
-from qe.formula.traverse import atoms, bound_variables, has_root_atoms, subformulas
+from qe.formula.traverse import atoms, has_root_atoms, subformulas
 
 SMALL_DEGREE = {1: 40, 2: 12, 3: 4, 4: 2}
 """An answer in so many variables is small up to this total degree: its whole space is decomposed in no time."""
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
-class Features:
-    """``free``, ``bound``: the variables (bound ones in order of quantification, without repetition); ``atoms``: how
-    many there are; ``total_degree``: the largest of their polynomials."""
-
-    free: tuple[str, ...]
-    bound: tuple[str, ...]
-    atoms: int
-    total_degree: int
-
-
-def features(formula: Formula) -> Features:
-    """The features of a formula."""
-    listed = list(atoms(formula))
-    return Features(
-        free=formula.free,
-        bound=bound_variables(formula),
-        atoms=len(listed),
-        total_degree=max((a.poly.total_degree for a in listed), default=0),
-    )
 
 
 def is_small(formula: Formula, degrees: Mapping[int, int] = SMALL_DEGREE) -> bool:

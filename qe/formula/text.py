@@ -12,8 +12,8 @@ from qe.spelling import CONSTANTS, between_quotes, is_product, quoted_if_needed
 
 def text_notation(free: Iterable[str], bound: Iterable[str] = ()) -> Notation:
     """The notation for a formula with these variables: what is named like constants or products is quoted."""
-    beside = {*free, *bound}
-    doubtful = {name: between_quotes(name) for name in free if name in CONSTANTS or is_product(name, beside, {*bound})}
+    names = {*free, *bound}
+    doubtful = {name: between_quotes(name) for name in free if name in CONSTANTS or is_product(name, names, {*bound})}
     return _notation(lambda name: doubtful.get(name) or quoted_if_needed(name)) if doubtful else TEXT
 
 

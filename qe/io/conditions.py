@@ -61,9 +61,9 @@ def together(parts: Sequence[s.Node], at: int, *, quantified: bool = False) -> s
 
 def _has(node: s.Node, names: Sequence[str]) -> bool:
     """Whether one of the names occurs free in a formula."""
-    met: list[str] = []
-    Names(s.unplaced, lambda name, at: met.append(name)).part(node)
-    return not {*names}.isdisjoint(met)
+    free: list[str] = []
+    Names(s.unplaced, lambda name, at: free.append(name)).part(node)
+    return not {*names}.isdisjoint(free)
 
 
 def _may_be_between(left: s.Comparison, right: s.Comparison) -> bool:

@@ -33,7 +33,7 @@ _RELATIONS = {
     Relation.GE: "≥",
 }
 _BARE = re.compile(r"(<m[ino]\b[^>]*>.*?</m[ino]>|<[^>]*>)|([0-9]+)|\s*([-+])\s*|\s+")
-"""What is an element already, or a number, a sign, or a space beside elements."""
+"""What is an element already, or a number, a sign, or a space between elements."""
 
 
 def name(variable: str) -> str:
@@ -101,8 +101,8 @@ def polynomial(parts: list[Monomial], draw: Draw = name) -> str:
 def _marked(text: str) -> str:
     """A row of elements, of what is written with signs and numbers between them."""
 
-    def element(found: re.Match[str]) -> str:
-        known, number, sign = found.groups()
+    def element(part: re.Match[str]) -> str:
+        known, number, sign = part.groups()
         return known or (number and f"<mn>{number}</mn>") or (sign and f"<mo>{sign.replace('-', '−')}</mo>") or ""
 
     return f"<mrow>{_BARE.sub(element, text)}</mrow>"

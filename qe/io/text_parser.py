@@ -9,26 +9,12 @@ from functools import reduce
 from itertools import chain
 from typing import Any, ClassVar
 
-from qe.io import parser, text_lexer
+from qe.io import parser as p
 from qe.io import surface as s
+from qe.io import text_lexer
 from qe.io.collected import Coefficients
 from qe.io.conditions import SHARING, shared, together
 from qe.io.functions import RELATIONS
-from qe.io.parser import (
-    BODY,
-    BRACKET,
-    CLOSES,
-    EITHER,
-    ELSE,
-    FORMULA,
-    NOT,
-    PRIMARY,
-    RELATION,
-    TERM,
-    Infix,
-    Prefix,
-    Waiting,
-)
 from qe.io.text_errors import SyntaxFailure
 from qe.io.text_quantifiers import QuantifiedParser
 from qe.io.tokens import END, Token
@@ -45,6 +31,9 @@ _MULTIPLES = re.compile(r"([-+]?[0-9]*)([A-Za-z][A-Za-z0-9_]*|)")
 _UNITS, _IDLE = {"": 1, "+": 1, "-": -1}, str.maketrans("", "", "()*")
 
 
+_IN = p.Infix(p.RELATION, p.RELATION, p.TERM, p.TERM, p.FORMULA, lambda left, within, token: within(left, token.at))
+
+
 class TextParser(QuantifiedParser):
     """Reads a text that is not LaTeX."""
 
@@ -56,7 +45,7 @@ class TextParser(QuantifiedParser):
 
     def bar(self, value: Any) -> str:
         """The kind of a bar behind an operand: it ends an absolute value, else means "or", as two of them do."""
-        at, bracket = self.token.at, next(waiting for waiting in reversed(self.stack) if waiting.level == BRACKET)
+        at, bracket = self.token.at, next(waiting for waiting in reversed(self.stack) if waiting.level == p.BRACKET)
         kind = next((kind for kind in ("CLOSEBAR", "ALSO") if kind in bracket.closing), "OR")
         if kind == "OR":
             if not super().waiting_on(value, kind):
@@ -68,24 +57,24 @@ class TextParser(QuantifiedParser):
         self.token = Token(kind, "|", at)
         return kind
 
-    def joined(self, left: Any, operator: Infix) -> Any:
-        if operator.level != RELATION or self.token.kind == "RELATION":
+    def joined(self, left: Any, operator: p.Infix) -> Any:
+        if operator.level != p.RELATION or self.token.kind == "RELATION":
             return super().joined(left, operator)
         token = self.advance()
         return operator.make(left, self.set(), token)
 
     # --- the whole -------------------------------------------------------------------------------------------
-    def whole(self, wants: int = FORMULA) -> Any:
-        if wants != FORMULA:
+    def whole(self, wants: int = p.FORMULA) -> Any:
+        if wants != p.FORMULA:
             return super().whole(wants)
         ends = END, "COMMA", "QUANTIFIER"
-        self.conditions.append(self.expression(FORMULA, *ends))
+        self.conditions.append(self.expression(p.FORMULA, *ends))
         start = self.token.at
         while self.token.kind != END:
             if (comma := self.token.kind == "COMMA") and re.match(r"\d,\d", self.text[self.token.at - 1 :]):
                 raise self.unexpected(("AND",))  # a decimal number, perhaps
             at = self.advance().at if comma else self.token.at
-            part = self.expression(FORMULA, *ends)
+            part = self.expression(p.FORMULA, *ends)
             if self.behind is not None:
                 return self.behind(together(self.conditions, start, quantified=True))
             self.conditions.append(part)
@@ -95,9 +84,9 @@ class TextParser(QuantifiedParser):
 
     def terms(self) -> list[s.Term]:
         """Terms with commas between them, perhaps in brackets, to the end of the text."""
-        if self.token.kind in CLOSES and self.text.rstrip("; \t\r\n")[-1:] in (")", "]", "}"):
+        if self.token.kind in p.CLOSES and self.text.rstrip("; \t\r\n")[-1:] in (")", "]", "}"):
             with suppress(SyntaxFailure):
-                terms = self.arguments(CLOSES[self.advance().kind])
+                terms = self.arguments(p.CLOSES[self.advance().kind])
                 self.take(END)
                 return terms
             return type(self)(self.text).arguments(END)
@@ -106,8 +95,8 @@ class TextParser(QuantifiedParser):
     def name_or_call(self) -> s.Term | None:
         """A name, or several with commas between them, which share the comparison that follows."""
         waiting, at = self.stack[-1], self.token.at
-        closing = next(bracket.closing for bracket in reversed(self.stack) if bracket.level == BRACKET)
-        is_apart = bool(waiting.wants & FORMULA) and (END in closing or "COMMA" not in closing)
+        closing = next(bracket.closing for bracket in reversed(self.stack) if bracket.level == p.BRACKET)
+        is_apart = bool(waiting.wants & p.FORMULA) and (END in closing or "COMMA" not in closing)
         sharing = SHARING.match(self.text, at) if is_apart else None
         if sharing is None:
             return super().name_or_call()
@@ -116,14 +105,14 @@ class TextParser(QuantifiedParser):
             names.append(s.Name(*self.take("NAME")[1:]))
             self.take("COMMA")
         before = self.conditions[-1] if self.conditions and len(self.stack) == 1 else None
-        self.stack.append(Waiting(NOT, FORMULA, FORMULA, lambda node: shared(names, node, before, at)))
+        self.stack.append(p.Waiting(p.NOT, p.FORMULA, p.FORMULA, lambda node: shared(names, node, before, at)))
         return None
 
     def command(self) -> s.Node:
         """``Reduce[f, {x, y}, Reals]``: the formula."""
         name = self.advance().text
         self.take("LEFT")
-        node: s.Node = self.expression(FORMULA, "COMMA", "RIGHT")
+        node: s.Node = self.expression(p.FORMULA, "COMMA", "RIGHT")
         if self.token.kind == "COMMA" and self.advance() and self.token.kind != "REALS":
             if name in text_lexer.SIMPLIFIERS:
                 raise SyntaxFailure(f"what {name} assumes is given with assuming= or --assuming", self.token.at)
@@ -143,12 +132,12 @@ class TextParser(QuantifiedParser):
             at = self.advance().at
             *others, last = [s.Name(name, at) for name in self.names()]
             self.take("END")
-            self.stack.append(Waiting(NOT, FORMULA, FORMULA, lambda node: shared(others, node, None, at)))
+            self.stack.append(p.Waiting(p.NOT, p.FORMULA, p.FORMULA, lambda node: shared(others, node, None, at)))
             return last
         built, kind = _BUILT.match(self.text, self.token.at), self.advance().kind
         known = self.members() if built else []
         make = lambda parts: s.Every([*known, *parts]) if known or len(parts) > 1 else parts[0]  # noqa: E731
-        self.open(FORMULA, CLOSES[kind], make, many=True)
+        self.open(p.FORMULA, p.CLOSES[kind], make, many=True)
         return None
 
     def members(self) -> list[s.Node]:
@@ -163,39 +152,39 @@ class TextParser(QuantifiedParser):
 
     def connective(self) -> None:
         token = self.advance()
-        closing = CLOSES[self.take("OPEN", "LEFT").kind]
-        self.open(FORMULA, closing, lambda parts: _connected(token, parts), many=True)
+        closing = p.CLOSES[self.take("OPEN", "LEFT").kind]
+        self.open(p.FORMULA, closing, lambda parts: _connected(token, parts), many=True)
 
     def compared(self) -> None:
         token = self.advance()
-        closing = CLOSES[self.take("OPEN", "LEFT").kind]
-        self.open(TERM, closing, lambda parts: _compared(token, parts), many=True)
+        closing = p.CLOSES[self.take("OPEN", "LEFT").kind]
+        self.open(p.TERM, closing, lambda parts: _compared(token, parts), many=True)
 
     def cases(self) -> None:
         """``if f then a else b``, of formulas or of terms."""
         last, at = self.stack[-1], self.advance().at
-        condition = self.expression(FORMULA, "THEN")
+        condition = self.expression(p.FORMULA, "THEN")
         self.advance()
-        if last.wants & FORMULA and not re.search(r"\belse\b", self.text[self.token.at :]):
-            self.stack.append(Waiting(BODY, FORMULA, FORMULA, lambda body: s.Implication(condition, body)))
+        if last.wants & p.FORMULA and not re.search(r"\belse\b", self.text[self.token.at :]):
+            self.stack.append(p.Waiting(p.BODY, p.FORMULA, p.FORMULA, lambda body: s.Implication(condition, body)))
             return
-        then = self.expression(EITHER if last.wants & FORMULA else TERM, "ELSE")
+        then = self.expression(p.EITHER if last.wants & p.FORMULA else p.TERM, "ELSE")
         self.advance()
         if isinstance(then, s.Node):
             make: Callable[[Any], Any] = lambda other: s.connected("ITE", [condition, then, other])  # noqa: E731
-            self.stack.append(Waiting(BODY, FORMULA, FORMULA, make))
+            self.stack.append(p.Waiting(p.BODY, p.FORMULA, p.FORMULA, make))
         else:
-            self.stack.append(Waiting(ELSE, TERM, TERM, lambda other: s.Choice(condition, then, other, at)))
+            self.stack.append(p.Waiting(p.ELSE, p.TERM, p.TERM, lambda other: s.Choice(condition, then, other, at)))
 
     def cases_call(self) -> s.Term:
         """``If[f, a, b]``."""
         at = self.advance().at
-        closing = CLOSES[self.take("OPEN", "LEFT").kind]
-        condition = self.expression(FORMULA, "COMMA")
+        closing = p.CLOSES[self.take("OPEN", "LEFT").kind]
+        condition = self.expression(p.FORMULA, "COMMA")
         self.advance()
-        then = self.expression(TERM, "COMMA")
+        then = self.expression(p.TERM, "COMMA")
         self.advance()
-        other = self.expression(TERM, closing)
+        other = self.expression(p.TERM, closing)
         self.advance()
         return s.Choice(condition, then, other, at)
 
@@ -206,9 +195,9 @@ class TextParser(QuantifiedParser):
         while not rows or self.token.kind == "COMMA":
             self.take("COMMA" if rows else "OPEN")
             self.take("OPEN")
-            value = self.expression(TERM, "COMMA")
+            value = self.expression(p.TERM, "COMMA")
             self.advance()
-            rows.append((self.expression(FORMULA, "CLOSE"), value))
+            rows.append((self.expression(p.FORMULA, "CLOSE"), value))
             self.advance()
         self.take("CLOSE")
         none: s.Term | None = None
@@ -235,37 +224,35 @@ class TextParser(QuantifiedParser):
 
     def absolute(self) -> None:
         at = self.advance().at
-        self.open(TERM, "CLOSEBAR", lambda parts: s.Apply("abs", parts, at))
+        self.open(p.TERM, "CLOSEBAR", lambda parts: s.Apply("abs", parts, at))
 
     def radical(self) -> None:
         _, sign, at = self.advance()
         function = "cbrt" if sign == "∛" else "sqrt"
-        self.stack.append(Waiting(PRIMARY, TERM, TERM | parser.SIMPLE, lambda part: s.Apply(function, [part], at)))
+        self.stack.append(p.Waiting(p.PRIMARY, p.TERM, p.TERM | p.SIMPLE, lambda part: s.Apply(function, [part], at)))
 
     infix = {  # noqa: RUF012
-        **parser.INFIX,
-        "IN": Infix(RELATION, RELATION, TERM, TERM, FORMULA, lambda left, within, token: within(left, token.at)),
-        "NOTIN": Infix(
-            RELATION, RELATION, TERM, TERM, FORMULA, lambda left, within, token: s.Negation(within(left, token.at))
-        ),
+        **p.INFIX,
+        "IN": _IN,
+        "NOTIN": _IN._replace(make=lambda left, within, token: s.Negation(within(left, token.at))),
     }
     prefix = {  # noqa: RUF012
-        **parser.PREFIX,
-        "NAME": Prefix(TERM, PRIMARY, name_or_call),
-        "QUANTIFIER": Prefix(FORMULA, NOT, QuantifiedParser.quantifier),
-        "LEFT": Prefix(FORMULA, NOT, listed),
-        "BEGIN": Prefix(FORMULA, NOT, listed),
-        "ELEMENT": Prefix(FORMULA, NOT, QuantifiedParser.element),
-        "CONNECTIVE": Prefix(FORMULA, NOT, connective),
-        "COMPARE": Prefix(FORMULA, NOT, compared),
-        "IF": Prefix(EITHER, ELSE, cases),
-        "CHOICE": Prefix(TERM, PRIMARY, cases_call),
-        "PIECEWISE": Prefix(TERM, PRIMARY, piecewise),
-        "COMMAND": Prefix(FORMULA, NOT, command),
-        "INFINITY": Prefix(TERM, PRIMARY, infinity),
-        "LINEAR": Prefix(TERM, PRIMARY, linear),
-        **dict.fromkeys(("OPENBAR", "BAR"), Prefix(TERM, PRIMARY, absolute)),
-        "RADICAL": Prefix(TERM, PRIMARY, radical),
+        **p.PREFIX,
+        "NAME": p.Prefix(p.TERM, p.PRIMARY, name_or_call),
+        "QUANTIFIER": p.Prefix(p.FORMULA, p.NOT, QuantifiedParser.quantifier),
+        "LEFT": p.Prefix(p.FORMULA, p.NOT, listed),
+        "BEGIN": p.Prefix(p.FORMULA, p.NOT, listed),
+        "ELEMENT": p.Prefix(p.FORMULA, p.NOT, QuantifiedParser.element),
+        "CONNECTIVE": p.Prefix(p.FORMULA, p.NOT, connective),
+        "COMPARE": p.Prefix(p.FORMULA, p.NOT, compared),
+        "IF": p.Prefix(p.EITHER, p.ELSE, cases),
+        "CHOICE": p.Prefix(p.TERM, p.PRIMARY, cases_call),
+        "PIECEWISE": p.Prefix(p.TERM, p.PRIMARY, piecewise),
+        "COMMAND": p.Prefix(p.FORMULA, p.NOT, command),
+        "INFINITY": p.Prefix(p.TERM, p.PRIMARY, infinity),
+        "LINEAR": p.Prefix(p.TERM, p.PRIMARY, linear),
+        **dict.fromkeys(("OPENBAR", "BAR"), p.Prefix(p.TERM, p.PRIMARY, absolute)),
+        "RADICAL": p.Prefix(p.TERM, p.PRIMARY, radical),
     }
 
 
@@ -280,9 +267,9 @@ class LatexParser(TextParser):
     calls: ClassVar = {"NAME": ("LEFT",), "FUNCTION": ("OPEN", "LEFT")}
     infix: ClassVar = {
         **TextParser.infix,
-        **dict.fromkeys(("NAME", "NUMBER", "OPEN", "RADICAL", "OPENBAR", "FUNCTION"), parser.JUXTAPOSED),
+        **dict.fromkeys(("NAME", "NUMBER", "OPEN", "RADICAL", "OPENBAR", "FUNCTION"), p.JUXTAPOSED),
     }
-    prefix: ClassVar = {**TextParser.prefix, "FUNCTION": parser.PREFIX["NAME"]}
+    prefix: ClassVar = {**TextParser.prefix, "FUNCTION": p.PREFIX["NAME"]}
 
     def lexed(self, text: str) -> Iterator[Token]:
         from qe.io import latex_lexer

@@ -159,15 +159,15 @@ class QuantifiedParser(Parser):
         """Intersections, then from the left unions and differences."""
         value = self.intersection()
         while self.token.kind in ("UNION", "WITHOUT") or self.token.text in ("union", "Union"):
-            combine = _difference if self.advance().kind == "WITHOUT" else _union
-            value = combine(value, self.intersection())
+            is_difference, other = self.advance().kind == "WITHOUT", self.intersection()
+            value = _without(value, other) if is_difference else _combined(s.Some, value, other)
         return value
 
     def intersection(self) -> Within:
         value = self.simple_set()
         while self.token.kind == "COMMON":
             self.advance()
-            value = _intersection(value, self.simple_set())
+            value = _combined(s.Every, value, self.simple_set())
         return value
 
     def refuse_others(self) -> None:
@@ -259,13 +259,9 @@ def all_within(terms: list[Any], within: Within, at: int) -> s.Node:
     return inside[0] if len(inside) == 1 else s.Every(inside)
 
 
-def _union(one: Within, other: Within) -> Within:
-    return lambda term, at: s.Some([one(term, at), other(term, at)])
+def _combined(kind: type[s.Every] | type[s.Some], one: Within, other: Within) -> Within:
+    return lambda term, at: kind([one(term, at), other(term, at)])
 
 
-def _difference(one: Within, other: Within) -> Within:
+def _without(one: Within, other: Within) -> Within:
     return lambda term, at: s.Every([one(term, at), s.Negation(other(term, at))])
-
-
-def _intersection(one: Within, other: Within) -> Within:
-    return lambda term, at: s.Every([one(term, at), other(term, at)])

@@ -12,7 +12,7 @@ import pytest
 from typer.main import get_command
 
 import qe
-from qe.api.doors import DOORS, Door, table_of_doors
+from qe.api.doors import DOORS, Door
 from qe.api.settings import settings_in
 from qe.cli.app import app
 from qe.cli.options import ELSEWHERE
@@ -94,6 +94,16 @@ def test_verify(certificate: Path) -> None:
     assert run("check", str(certificate), *asked).returncode == 4
     assert run("check", str(certificate), *asked, "--assuming", "a >= 0").returncode == 4
     assert Session().reply(f":verify {certificate}") == "accepted"
+
+
+def table_of_doors() -> str:
+    """All doors as a table in Markdown."""
+    rows = []
+    for door in DOORS.values():
+        says = door.says.replace("FORMULA", "a formula").replace("CONSTRAINTS", "constraints")
+        names = ", ".join(f"`qe.{name}`" for name in (door.name, *door.also))
+        rows.append(f"| {says} | {names} | `qe {door.name}` | `:{door.name} {door.line}` |")
+    return "\n".join(["| what | Python | command | at the prompt |", "|---|---|---|---|", *rows])
 
 
 def test_the_page_has_the_table() -> None:

@@ -10,7 +10,6 @@ from pathlib import Path
 from typing import Any
 
 from qe.formula.evaluate import holds_at
-from qe.formula.features import features
 from qe.formula.syntax import Exists, ForAll
 from qe.io.text import read, write
 from tests.universe import same
@@ -55,7 +54,7 @@ def test_problems_are_read_with_their_variables(shared: Path) -> None:
                 prefix += [["ex" if isinstance(body, Exists) else "all", name] for name in body.variables]
                 body = body.body
             assert prefix == [[kind, name] for kind, name in record["prefix"]], record["id"]
-            assert features(formula).bound
+            assert formula.bound
 
 
 def test_expected_answers_mean_what_they_say(shared: Path) -> None:

@@ -13,9 +13,10 @@ from typer.main import get_command
 
 import qe
 from qe.api import settings
-from qe.api.settings import MOST_WORKERS, Elimination, settings_in, table_of_settings
+from qe.api.settings import MOST_WORKERS, Elimination, settings_in
 from qe.cli.app import app
 from qe.cli.options import ELSEWHERE, checked
+from qe.options import Method, Projection
 from tests.tables import each
 
 ROOT = Path(__file__).resolve().parents[3]
@@ -96,6 +97,17 @@ def test_every_setting_is_said_once() -> None:
         if isinstance(n, ast.AnnAssign) and isinstance(n.target, ast.Name)
     ]
     assert set(TABLE) <= set(fields) and all(fields.count(name) == 1 for name in TABLE if name != "check")
+
+
+def table_of_settings() -> str:
+    """All settings of ``qe.eliminate`` as a table in Markdown."""
+    rows = [f"| `{name}` | {_shown(s.default)} | {s.says} |" for name, (_, s) in settings_in(Elimination).items()]
+    return "\n".join(["| keyword | default | meaning |", "|---|---|---|", *rows])
+
+
+def _shown(default: object) -> str:
+    value = default.value if isinstance(default, Method | Projection) else default
+    return "no listener" if callable(value) else f"`{value!r}`"
 
 
 def test_the_reference_has_the_table() -> None:

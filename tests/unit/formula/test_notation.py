@@ -7,7 +7,6 @@ from hypothesis import strategies as st
 
 from qe.exact.ring import Poly, Ring
 from qe.formula.doubts import doubts, numbers_as_names
-from qe.formula.features import features
 from qe.formula.notation import Level, bracketed, chain, monomials, oriented, polynomial, positive
 from qe.formula.relation import Relation
 from qe.formula.syntax import Exists, ForAll
@@ -116,13 +115,3 @@ def test_the_product_that_may_be_meant(letter: str, variable: str, power: int) -
     note = f"{letter}{variable} is read as the product {letter}*{variable}"
     assert noted(f"ex {variable}. {letter}{variable}^{power} + 1 = 0") == (note,)
     assert noted(f"ex {variable}. {letter}*{variable}^{power} + 1 = 0") == ()
-
-
-@each(
-    ("ex p, q. all s. p = 2*a - 1 and p^2 + q^2*s <= 27 and s^3 /= a", "a", "pqs", 3, 3),
-    ("(ex x. x > y) and not (all z, x. x < root(1, x^2*y - 2*z))", "y", "xz", 2, 3),
-    ("true", "", "", 0, 0),
-)
-def test_features(text: str, free: str, bound: str, atoms: int, degree: int) -> None:
-    found = features(read(text))
-    assert (found.free, found.bound, found.atoms, found.total_degree) == (tuple(free), tuple(bound), atoms, degree)
