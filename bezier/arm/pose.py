@@ -27,20 +27,9 @@ from bezier.arm.inverse import Inverse, Solution, check_kinematics, exact_number
 from bezier.arm.model import Arm
 from bezier.arm.roots_of_squares import chain_of, roots_of, surds, zeros_among
 from bezier.curves.scalar import rational
+from bezier.proofs import inverse_pose
 from bezier.proofs.arm_rows import ArmChain
 from bezier.proofs.families import Arcs, Position, arcs_of, arcs_over
-from bezier.proofs.inverse_pose import (
-    ORIGIN,
-    OtherShape,
-    SixJoints,
-    based_on,
-    centre,
-    elbow_wave,
-    first_wave,
-    has_parallel_axes,
-    parallel_axes,
-    wrist,
-)
 from bezier.proofs.inverse_position import positions_of
 from bezier.proofs.nested_roots import NO_ROOT, JointValue, Nested, Place, Root, nested, square, turn_between, turn_by
 from bezier.proofs.square_roots import ONE, ZERO, Motion, Polynomial, Surd, Triple, back, is_motion
@@ -93,19 +82,19 @@ def solve_pose(arm: Arm, point: Sequence[Any], rotation: Sequence[Sequence[Any]]
     numbers = tuple(exact_number(v, "point") for v in point)
     rows = tuple(tuple(exact_number(v, "rotation") for v in row) for row in rotation)
     chain, pose = chain_of(arm), motion_of(numbers, rows)
-    is_wrist = centre(chain) is not None
+    is_wrist = inverse_pose.centre(chain) is not None
     if not is_motion(pose):
         raise InputError("rotation: a matrix with orthogonal columns of length 1 and determinant 1 expected")
     try:
         placed = _by_wrist(chain, pose) if is_wrist else _by_parallel_axes(chain, pose)
         solutions = [_solution(arm, position, multiple) for position, multiple in placed]
-    except OtherShape:
+    except inverse_pose.OtherShape:
         raise Unable(f"inverse kinematics at a pose needs {NEEDED}; {arm.name} is none") from None
     check_kinematics(arm, solutions, numbers, *zip(*rows, strict=True))
     result = tuple(sorted(solutions, key=lambda s: [v for v in s.angles if v is not None]))
     names = [joint.name for joint in arm.joints]
     free = {name for s in result for name, v in zip(names, s.values, strict=True) if v is None}
-    way = -1 if not is_wrist and len(names) == 6 and not has_parallel_axes(chain) else 1
+    way = -1 if not is_wrist and len(names) == 6 and not inverse_pose.has_parallel_axes(chain) else 1
     named = {_named(names[::way], s.values[::way], is_wrist) for s in result if None in s.values}
     cases = (*sorted(named), *("two solutions meet: the arm is singular here",) * any(s.multiple for s in result))
     return Inverse(arm, numbers, result, tuple(n for n in names if n in free), cases, rows)
@@ -139,16 +128,18 @@ WHERE = Entry(None, "pose")
 
 
 def _by_parallel_axes(chain: ArmChain, pose: Motion) -> Placed:
-    is_ahead = len(chain.turns) == 6 and has_parallel_axes(chain)
-    if is_ahead or (len(chain.turns) == 6 and has_parallel_axes(chain.reversed)):
+    is_ahead = len(chain.turns) == 6 and inverse_pose.has_parallel_axes(chain)
+    if is_ahead or (len(chain.turns) == 6 and inverse_pose.has_parallel_axes(chain.reversed)):
         constants, there = (chain.constants, pose) if is_ahead else (chain.reversed.constants, back(pose))
-        based = based_on(constants, there)
-        if not any(first_wave(constants, based)):
+        based = inverse_pose.based_on(constants, there)
+        if not any(inverse_pose.first_wave(constants, based)):
             whole = Position([None] * 6, {0: _followed(constants, based)})
             if whole.chosen[0] != ():
                 yield whole if is_ahead else whole.backwards, False
             return
-    yield from ((position, _is_double(position)) for position in parallel_axes(chain, pose, WHERE, Budget()))
+    yield from (
+        (position, _is_double(position)) for position in inverse_pose.parallel_axes(chain, pose, WHERE, Budget())
+    )
 
 
 def _is_double(position: Position) -> bool:
@@ -164,16 +155,16 @@ def _followed(constants: Sequence[Motion], based: Motion) -> Arcs:
         return JointValue(c, s, w)
 
     def holds(first: JointValue) -> bool:
-        return any(True for _ in SixJoints(constants, based, first).positions())
+        return any(True for _ in inverse_pose.SixJoints(constants, based, first).positions())
 
-    six = SixJoints(constants, based, turned(lambda v: v))
+    six = inverse_pose.SixJoints(constants, based, turned(lambda v: v))
     u = six.axes
     second = square(six.fifth(u))
     key = frozenset({Root(second)})
     fifth = turn_by(six.fifth(u), Nested({key: one}))
     w = six.seen(fifth)
     sixth = turn_between(u.parts, w.parts, (u.scale, w.scale))
-    third = square(elbow_wave(constants[2:4], six.middle(ORIGIN, True, fifth, sixth))).terms
+    third = square(inverse_pose.elbow_wave(constants[2:4], six.middle(inverse_pose.ORIGIN, True, fifth, sixth))).terms
     p, q, m2 = (terms.get(k, Polynomial()) for terms, k in ((third, NO_ROOT), (third, key), (second.terms, NO_ROOT)))
     below = (u.parts[0] * u.parts[0] + u.parts[1] * u.parts[1]).terms.get(NO_ROOT, Polynomial())
     marks = zeros_among(f for f in (m2, below, p * p - q * q * m2, p, q) if f)
@@ -222,7 +213,7 @@ def _by_wrist(chain: ArmChain, pose: Motion) -> Placed:
 
 def _with_wrist(chain: ArmChain, pose: Motion, arm: Position) -> Iterator[Position]:
     try:
-        yield from wrist(chain, pose, arm, WHERE)
+        yield from inverse_pose.wrist(chain, pose, arm, WHERE)
     except CertificateRejected:
         raise Unable("joints before the wrist can be chosen: for which values it follows is not decided") from None
 

@@ -16,18 +16,7 @@ from functools import cached_property
 from itertools import pairwise
 from math import comb, factorial
 
-from bezier.chains.form import (
-    AXES,
-    Affine,
-    Form,
-    Point,
-    Requirement,
-    Solved,
-    affine_sum,
-    linear_form,
-    squared_length,
-    weighted_sum,
-)
+from bezier.chains import form as forms
 from qe.errors import InputError
 from qe.exact.quadratic_form import echelon, solve_linear
 
@@ -47,7 +36,7 @@ class Equation:
     order: int
     without: tuple[str, ...]
     terms: tuple[tuple[Place, Fraction], ...]
-    value: Point
+    value: forms.Point
 
 
 class Objective(Enum):
@@ -94,21 +83,21 @@ class Chain:
     curve, so that what excludes such chains excludes all durations of it.
     """
 
-    points: tuple[Point, ...]
+    points: tuple[forms.Point, ...]
     degree: int = 3
     continuity: int = 2
     durations: tuple[Fraction, ...] = ()
     ends: Ends = Ends.FREE
     closed: bool = False
     objective: Objective = Objective.LEGS
-    centre: Point = ()
+    centre: forms.Point = ()
     radius_squared: Fraction | None = None
-    half_spaces: tuple[tuple[Point, Fraction], ...] = ()
+    half_spaces: tuple[tuple[forms.Point, Fraction], ...] = ()
     free: str = ""
     max_length: Fraction | None = None
     max_curvature: Fraction | None = None
     free_total: Fraction | None = None
-    velocities: tuple[Point, ...] = ()
+    velocities: tuple[forms.Point, ...] = ()
 
     def __post_init__(self) -> None:
         if (self.degree, self.continuity) not in KINDS:
@@ -154,7 +143,7 @@ class Chain:
         return tuple(f"durations[{k}]" for k in range(self.pieces))
 
     @property
-    def corners(self) -> tuple[Point, ...]:
+    def corners(self) -> tuple[forms.Point, ...]:
         """Where the curves begin and end, in order."""
         return (*self.points, self.points[0]) if self.closed else self.points
 
@@ -174,12 +163,12 @@ class Chain:
         return self.ends is Ends.ZERO
 
     @cached_property
-    def solved(self) -> Solved:
+    def solved(self) -> forms.Solved:
         """The control points as combinations of free ones."""
         return solved_joins(self)
 
 
-def requirements(chain: Chain, solved: Solved) -> tuple[Requirement, ...]:
+def requirements(chain: Chain, solved: forms.Solved) -> tuple[forms.Requirement, ...]:
     """Of all control points, those that several curves share once; with the joins that contradict each other."""
     result, names = [row for _, row in solved.joins], chain.point_names
     for k, piece in enumerate(solved.controls):
@@ -188,48 +177,48 @@ def requirements(chain: Chain, solved: Solved) -> tuple[Requirement, ...]:
             corner = names[(k + (j > 0)) % len(names)]
             name = f"C{k + 1}.{j}" if 0 < j < chain.degree else corner
             if chain.radius_squared is not None:
-                away = affine_sum(((_ONE, point), (-_ONE, Affine({}, chain.centre))))
-                form = squared_length(away).shifted(-chain.radius_squared)
-                result.append(Requirement(f"{name} in the ball", form, ((_ONE, away),), is_ball=True))
+                away = forms.affine_sum(((_ONE, point), (-_ONE, forms.Affine({}, chain.centre))))
+                form = forms.squared_length(away).shifted(-chain.radius_squared)
+                result.append(forms.Requirement(f"{name} in the ball", form, ((_ONE, away),), is_ball=True))
             for i, (normal, offset) in enumerate(chain.half_spaces):
-                form = linear_form(tuple(-c for c in normal), point).shifted(offset)
-                result.append(Requirement(f"{name} in half_space[{i}]", form))
+                form = forms.linear_form(tuple(-c for c in normal), point).shifted(offset)
+                result.append(forms.Requirement(f"{name} in half_space[{i}]", form))
     return tuple(result)
 
 
-def objective_form(chain: Chain, solved: Solved) -> Form:
+def objective_form(chain: Chain, solved: forms.Solved) -> forms.Form:
     """What is to be least."""
     if chain.free:
         place, given = freed(chain, solved)
-        return squared_length(affine_sum(((_ONE, place), (-_ONE, Affine({}, given)))))
+        return forms.squared_length(forms.affine_sum(((_ONE, place), (-_ONE, forms.Affine({}, given)))))
     order, pieces = chain.objective.order, solved.controls
     if not order:
         if chain.objective is Objective.MIDDLE_LEGS and not chain.closed:
             pieces = pieces[1:-1]
         legs = (_difference(p[j : j + 2]) for p in pieces for j in range(chain.degree))
-        return weighted_sum((_ONE, squared_length(leg)) for leg in legs)
+        return forms.weighted_sum((_ONE, forms.squared_length(leg)) for leg in legs)
     parts = [(w, f) for p, t in zip(pieces, chain.times, strict=True) for w, f in _energy(p, t, order)]
-    return weighted_sum(parts)
+    return forms.weighted_sum(parts)
 
 
-def freed(chain: Chain, solved: Solved) -> tuple[Affine, Point]:
+def freed(chain: Chain, solved: forms.Solved) -> tuple[forms.Affine, forms.Point]:
     """The point or velocity that is free, and the one that is given."""
     if matched := re.fullmatch(r"velocities\[([01])\]", chain.free):
         end = int(matched[1])
         terms = derivative(chain, end * (chain.pieces - 1), end, 1)
-        velocity = affine_sum((w, solved.controls[k][j]) for (k, j), w in terms)
+        velocity = forms.affine_sum((w, solved.controls[k][j]) for (k, j), w in terms)
         return velocity, chain.velocities[end] if chain.velocities else (_ZERO,) * chain.dimension
     k = chain.point_names.index(chain.free)
     return solved.controls[min(k, chain.pieces - 1)][0 if k < chain.pieces else -1], chain.points[k]
 
 
-def _energy(points: Sequence[Affine], time: Fraction, order: int) -> list[tuple[Fraction, Form]]:
+def _energy(points: Sequence[forms.Affine], time: Fraction, order: int) -> list[tuple[Fraction, forms.Form]]:
     """The integral of the squared derivative: with B-coefficients c_i of degree m that is sum G_ij c_i.c_j and
     G_ij = C(m,i) C(m,j) / (C(2m,i+j) (2m+1)) (Farin, 6.5), by polarisation."""
     degree = len(points) - 1
     m, scale = degree - order, Fraction(factorial(degree), factorial(degree - order)) / time**order
     slopes = [_difference(points[i : i + order + 1]) for i in range(m + 1)]
-    squares = [squared_length(slope) for slope in slopes]
+    squares = [forms.squared_length(slope) for slope in slopes]
 
     def weight(i: int, j: int) -> Fraction:
         return Fraction(comb(m, i) * comb(m, j), comb(2 * m, i + j) * (2 * m + 1)) * scale**2 * time
@@ -237,18 +226,18 @@ def _energy(points: Sequence[Affine], time: Fraction, order: int) -> list[tuple[
     parts = [(weight(i, i), squares[i]) for i in range(m + 1)]
     for i in range(m + 1):
         for j in range(i):
-            both = squared_length(affine_sum(((_ONE, slopes[i]), (_ONE, slopes[j]))))
+            both = forms.squared_length(forms.affine_sum(((_ONE, slopes[i]), (_ONE, slopes[j]))))
             parts += [(weight(i, j), both), (-weight(i, j), squares[i]), (-weight(i, j), squares[j])]
     return parts
 
 
-def _difference(points: Sequence[Affine]) -> Affine:
+def _difference(points: Sequence[forms.Affine]) -> forms.Affine:
     """Δ^k of k + 1 points."""
     k = len(points) - 1
-    return affine_sum((Fraction((-1) ** (k - j) * comb(k, j)), p) for j, p in enumerate(points))
+    return forms.affine_sum((Fraction((-1) ** (k - j) * comb(k, j)), p) for j, p in enumerate(points))
 
 
-def solved_joins(chain: Chain) -> Solved:
+def solved_joins(chain: Chain) -> forms.Solved:
     """Gauss and Jordan with the points of the beginning last: they stay free, and the others are tame in them. Where
     the equations contradict each other, all points stay free and the smallest contradiction is in ``joins``."""
     d, c, m = chain.degree, chain.continuity, chain.pieces
@@ -264,22 +253,22 @@ def solved_joins(chain: Chain) -> Solved:
     if contradictory:
         work, pivots = [], []
     free = {column: i for i, column in enumerate(c for c in range(width) if c not in set(pivots))}
-    values = {column: Affine({i: _ONE}, (_ZERO,) * chain.dimension) for column, i in free.items()}
+    values = {column: forms.Affine({i: _ONE}, (_ZERO,) * chain.dimension) for column, i in free.items()}
     for row, column in zip(work, pivots, strict=True):
-        values[column] = Affine({i: -row[q] for q, i in free.items() if row[q]}, tuple(row[width:]))
+        values[column] = forms.Affine({i: -row[q] for q, i in free.items() if row[q]}, tuple(row[width:]))
     at = {place: values[i] for i, place in enumerate(columns)}
-    corners = [at.get((k % len(chain.points), 0), Affine({}, p)) for k, p in enumerate(chain.corners)]
+    corners = [at.get((k % len(chain.points), 0), forms.Affine({}, p)) for k, p in enumerate(chain.corners)]
     controls = tuple((corners[k], *(at[k, j] for j in range(1, d)), corners[k + 1]) for k in range(m))
     joins = _contradiction(chain, listed, matrix, at) if contradictory else ()
-    return Solved(len(free), controls, joins)
+    return forms.Solved(len(free), controls, joins)
 
 
 def _contradiction(
     chain: Chain,
-    listed: list[tuple[str, dict[Place, Fraction], Point]],
+    listed: list[tuple[str, dict[Place, Fraction], forms.Point]],
     matrix: list[list[Fraction]],
-    at: dict[Place, Affine],
-) -> tuple[tuple[Fraction, Requirement], ...]:
+    at: dict[Place, forms.Affine],
+) -> tuple[tuple[Fraction, forms.Requirement], ...]:
     """Weights with which equations have the sum 0 = 1 in one coordinate. Those with a weight are independent but for
     this, so that there is no other contradiction among them."""
     for axis in range(chain.dimension):
@@ -292,9 +281,9 @@ def _contradiction(
     unit, joins = tuple(_ONE if k == axis else _ZERO for k in range(chain.dimension)), []
     for weight, (label, terms, value) in zip(solution.particular, listed, strict=True):
         if weight:
-            total = weighted_sum((w, linear_form(unit, at[place])) for place, w in terms.items())
-            form = weighted_sum([(-_ONE if weight > 0 else _ONE, total.shifted(-value[axis]))])
-            joins.append((abs(weight), Requirement(f"{label}, {AXES[axis]}", form)))
+            total = forms.weighted_sum((w, forms.linear_form(unit, at[place])) for place, w in terms.items())
+            form = forms.weighted_sum([(-_ONE if weight > 0 else _ONE, total.shifted(-value[axis]))])
+            joins.append((abs(weight), forms.Requirement(f"{label}, {forms.AXES[axis]}", form)))
     return tuple(joins)
 
 
@@ -325,7 +314,7 @@ def derivative(chain: Chain, k: int, end: int, order: int) -> list[tuple[Place, 
     return [((k, first + j), scale * (-1) ** (order - j) * comb(order, j)) for j in range(order + 1)]
 
 
-def _unknown(chain: Chain, equation: Equation) -> tuple[str, dict[Place, Fraction], Point]:
+def _unknown(chain: Chain, equation: Equation) -> tuple[str, dict[Place, Fraction], forms.Point]:
     """What an equation is about, its weights of points that are not known, and what is known on the right."""
     unknown, value = dict[Place, Fraction](), equation.value
     for (k, j), weight in equation.terms:

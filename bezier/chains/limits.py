@@ -20,19 +20,9 @@ from itertools import pairwise
 from math import comb
 from typing import Any
 
-from bezier.chains import proposals
+from bezier.chains import proof, proposals
 from bezier.chains.chain import Chain, objective_form
 from bezier.chains.form import Affine, Point, Requirement, Solved, affine_sum, linear_form, squared_length, weighted_sum
-from bezier.chains.proof import (
-    Best,
-    Contradiction,
-    best,
-    bounded,
-    contradiction,
-    decided,
-    rational_weights,
-    rounded_point,
-)
 from bezier.curves.curve import Bezier
 from bezier.curves.enclosure import curvature_enclosure, length_enclosure
 from qe.errors import Unable
@@ -65,10 +55,10 @@ def keeps_limits(chain: Chain, curves: Sequence[Bezier]) -> str:
 
 def best_within(
     chain: Chain, solved: Solved, rows: Sequence[Requirement], inside: Sequence[Point]
-) -> Best | Contradiction:
+) -> proof.Best | proof.Contradiction:
     """The best chain that is seen to keep the bounds, with a proved bound from below; or a proof that none is short
     enough. Raises ``Unable``."""
-    free = best(chain, solved, rows, inside)
+    free = proof.best(chain, solved, rows, inside)
     if not keeps_limits(chain, solved.curves(free.free)):
         return free
     inner, outer, point = list(rows), list(rows), free.free
@@ -87,25 +77,27 @@ def best_within(
     varying = [row for row in outer if not row.form.is_constant]
     proposal = proposals.least_value(chain, solved.size, varying, objective_form(chain, solved))
     nothing = (_ZERO,) * len(varying)
-    for weights in (*rational_weights(proposal.weights), nothing) if proposal is not None else ():
+    for weights in (*proof.rational_weights(proposal.weights), nothing) if proposal is not None else ():
         named = {row.label: w for w, row in zip(weights, varying, strict=True) if w}
         try:
-            return bounded(chain, solved, outer, point, named, _ONE)
+            return proof.bounded(chain, solved, outer, point, named, _ONE)
         except Unable:
             continue
     raise Unable("no bound from below was proved")
 
 
-def _too_long(chain: Chain, solved: Solved, rows: Sequence[Requirement], cut: Requirement) -> Contradiction | None:
+def _too_long(
+    chain: Chain, solved: Solved, rows: Sequence[Requirement], cut: Requirement
+) -> proof.Contradiction | None:
     """That the half-space excludes every chain: near the shortest one it hardly varies, and small multipliers of the
     balls hold the points that it leaves nearly free."""
-    if isinstance(none := _decided(chain, solved, [*rows, cut]), Contradiction):
+    if isinstance(none := _decided(chain, solved, [*rows, cut]), proof.Contradiction):
         return none
     support = [cut, *(row for row in rows if row.is_ball and not row.form.is_constant)]
     for share in (Fraction(1, 10**k) for k in range(2, 10)):
         try:
             weights = {row.label: _ONE if row is cut else share / (row.right * len(support)) for row in support}
-            return contradiction(chain, solved.size, weights, support)
+            return proof.contradiction(chain, solved.size, weights, support)
         except Unable:
             continue
     return None
@@ -113,7 +105,7 @@ def _too_long(chain: Chain, solved: Solved, rows: Sequence[Requirement], cut: Re
 
 def _decided(chain: Chain, solved: Solved, rows: Sequence[Requirement]) -> Any:
     try:
-        return decided(chain, solved, rows)
+        return proof.decided(chain, solved, rows)
     except Unable:
         return None
 
@@ -163,7 +155,7 @@ def _shortest(
         proposal = proposals.least_value(chain, solved.size, varying, _majorant(legs, near, _ZERO).form)
         if proposal is None:
             break
-        near = rounded_point(chain, proposal.point, 50)
+        near = proof.rounded_point(chain, proposal.point, 50)
     return near
 
 
@@ -176,9 +168,9 @@ def _short_enough(
     for _ in range(_ROUNDS):
         inner = [*rows, _majorant(legs, near, most)]
         inside = _decided(chain, solved, inner)
-        if inside is None or isinstance(inside, Contradiction):
+        if inside is None or isinstance(inside, proof.Contradiction):
             break
-        near = best(chain, solved, inner, inside).free
+        near = proof.best(chain, solved, inner, inside).free
         last = inner, near
     if last is None:
         raise Unable("no chain was seen to be short enough, and none was proved not to exist")
@@ -238,7 +230,7 @@ def _bent_less(
             proposal = proposals.least_value(chain, size, bent, objective)
         if proposal is None:
             break
-        other = rounded_point(chain, proposal.point, 50)
+        other = proof.rounded_point(chain, proposal.point, 50)
         better, worse = _excess(solved, other, most), _excess(solved, point, most)
         if not better and all(row.form.value(other) <= 0 for row in rows):
             if kept and objective.value(other) >= objective.value(kept[-1]):

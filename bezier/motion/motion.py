@@ -24,15 +24,8 @@ from itertools import accumulate
 from math import ceil
 from typing import Any
 
+from bezier.curves import enclosure
 from bezier.curves.curve import Bezier
-from bezier.curves.enclosure import (
-    Enclosure,
-    bounds,
-    curvature_enclosure,
-    length_enclosure,
-    root_above,
-    root_enclosure,
-)
 from bezier.curves.scalar import Vector, add, decimal_text, described, is_zero, scale
 from bezier.input.toml_table import Table
 from bezier.motion.timelaw import TICK, Law, TimeLaw
@@ -104,7 +97,7 @@ class Motion:
     timing: Timing
     duration: Fraction
     trajectory: Trajectory
-    rates: Mapping[str, Enclosure]
+    rates: Mapping[str, enclosure.Enclosure]
     kept: Mapping[str, bool]
     law: TimeLaw
     at_least: Fraction | None = None
@@ -116,7 +109,7 @@ class Motion:
         return f"Motion({float(self.duration):.6g} s, {'within' if self.keeps_limits else 'not within'} its limits)"
 
     @property
-    def largest(self) -> dict[str, Enclosure]:
+    def largest(self) -> dict[str, enclosure.Enclosure]:
         """The largest speed (mm/s) and acceleration (mm/s^2) over the whole time, by the names of their limits."""
         return {key: rate.scaled(self.duration ** -ORDERS[key]) for key, rate in self.rates.items()}
 
@@ -156,32 +149,32 @@ class Motion:
 class Quality:
     """Length (mm) and largest curvature (1/mm; None for a curve that is one point) of each curve, and the motion."""
 
-    lengths: Mapping[str, Enclosure]
-    curvatures: Mapping[str, Enclosure | None]
+    lengths: Mapping[str, enclosure.Enclosure]
+    curvatures: Mapping[str, enclosure.Enclosure | None]
     motion: Motion | None
 
     def __repr__(self) -> str:
         return f"Quality(length {float(self.length.low):.6g} mm{'' if self.motion is None else f', {self.motion!r}'})"
 
     @property
-    def length(self) -> Enclosure:
+    def length(self) -> enclosure.Enclosure:
         """The length of the whole path."""
-        return sum(self.lengths.values(), Enclosure(Fraction(0), Fraction(0)))
+        return sum(self.lengths.values(), enclosure.Enclosure(Fraction(0), Fraction(0)))
 
     @property
-    def curvature(self) -> Enclosure | None:
+    def curvature(self) -> enclosure.Enclosure | None:
         """The largest one on the whole path."""
         bends = [bend for bend in self.curvatures.values() if bend is not None]
         tops = [bend.high for bend in bends if bend.high is not None]
         highest = max(tops) if tops and len(tops) == len(bends) else None
-        return Enclosure(max(bend.low for bend in bends), highest) if bends else None
+        return enclosure.Enclosure(max(bend.low for bend in bends), highest) if bends else None
 
 
 def quality_of(path: Path, timing: Timing | None, rel: Fraction = REL) -> Quality:
     """Enclosures for every curve of the path."""
-    lengths = {name: length_enclosure(curve, rel) for name, curve in path.curves.items()}
+    lengths = {name: enclosure.length_enclosure(curve, rel) for name, curve in path.curves.items()}
     curvatures = {
-        name: None if is_zero(lengths[name].low) else curvature_enclosure(curve, rel)
+        name: None if is_zero(lengths[name].low) else enclosure.curvature_enclosure(curve, rel)
         for name, curve in path.curves.items()
     }
     has_law = timing is not None and timing.law is not Law.LEAST
@@ -205,7 +198,7 @@ def moving(path: Path, timing: Timing, law: TimeLaw, shortest: Fraction = Fracti
     total = RationalPoly.of([places.breaks[-1]])
     unit = composed(places, law.breaks, [total * share for share in law.shares])
     outcomes = decided(unit, [Limit(order, None, Fraction(1)) for order in ORDERS.values()], Fraction(0)).outcomes
-    values = (root_enclosure(*(max(v, Fraction(0)) for v in o.peak.value)) for o in outcomes)
+    values = (enclosure.root_enclosure(*(max(v, Fraction(0)) for v in o.peak.value)) for o in outcomes)
     rates = dict(zip(ORDERS, values, strict=True))
     least = max(least_duration(rates, timing.limits), shortest)
     duration = least if timing.duration is None else timing.duration
@@ -222,12 +215,12 @@ def moving(path: Path, timing: Timing, law: TimeLaw, shortest: Fraction = Fracti
     return Motion(timing, duration, moved, rates, kept, law)
 
 
-def least_duration(rates: Mapping[str, Enclosure], limits: Mapping[str, Fraction]) -> Fraction:
+def least_duration(rates: Mapping[str, enclosure.Enclosure], limits: Mapping[str, Fraction]) -> Fraction:
     """The least time in which the limits are kept, rounded up to a multiple of ``TICK``; ``rates``: for one second."""
     times = [Fraction(0)]
     for key, limit in limits.items():
         ratio = rates[key].finite[1] / limit
-        times.append(ratio if ORDERS[key] == 1 else root_above(ratio, bits=64))
+        times.append(ratio if ORDERS[key] == 1 else enclosure.root_above(ratio, bits=64))
     return ceil(max(times) / TICK) * TICK
 
 
@@ -248,7 +241,7 @@ def joined(names: str, parts: Sequence[tuple[Fraction, Bezier]]) -> Trajectory:
 
 def near(value: Any) -> Fraction:
     """The number if it is rational, else a rational one next to it."""
-    low, high = bounds(value, BITS)
+    low, high = enclosure.bounds(value, BITS)
     return (low + high) / 2
 
 
@@ -342,7 +335,7 @@ def _motion_words(motion: Motion) -> str:
     )
 
 
-def _short(value: Enclosure) -> str:
+def _short(value: enclosure.Enclosure) -> str:
     """An upper bound in a few digits."""
     high = value.to_json(6)["high"]
     return high if high == "inf" else f"{Decimal(high).normalize():f}"

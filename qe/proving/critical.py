@@ -17,17 +17,8 @@ from qe.exact.fibre_stack import isolate_over
 from qe.exact.quadratic_form import Quadratic as Form
 from qe.exact.ring import Poly, Ring
 from qe.exact.sample import Point
+from qe.expert import critical_values
 from qe.expert.critical_points import active_sets
-from qe.expert.critical_values import (
-    Condition,
-    are_weights,
-    common,
-    is_positive,
-    is_strict,
-    over,
-    read_conditions,
-    weighted,
-)
 from qe.formula.build import convert
 from qe.formula.evaluate import holds_at
 from qe.formula.syntax import Exists, Formula
@@ -52,8 +43,8 @@ def critical_evidence(claim: Claim, order: Sequence[str], options: Options, budg
         raise claim.fail("expected a block")
     names = tuple(order)
     ring, outer = Ring.of((*names, *block.variables)), Ring.of(names)
-    strict, holds = is_strict(block.body), convert(after, outer)
-    conditions = read_conditions(block.body, ring, claim, strict=strict)
+    strict, holds = critical_values.is_strict(block.body), convert(after, outer)
+    conditions = critical_values.read_conditions(block.body, ring, claim, strict=strict)
     regular = _table(after, outer, strict, claim, options, budget)
     (system,) = systems(convert(block.body, ring), ring, len(names))
     surfaces = critical_hypersurfaces(system, thin_parts=False, budget=budget)
@@ -93,7 +84,7 @@ def _stacks(levels: Sequence[Sequence[Poly]], point: Point, values: Values, said
 def _table(after: Formula, outer: Ring, strict: bool, claim: Claim, options: Options, budget: Budget) -> Json:
     """A cell table of the answer, or of its complement; none where it is seen to be convex."""
     try:
-        read_conditions(after, outer, claim, strict=strict)
+        critical_values.read_conditions(after, outer, claim, strict=strict)
     except CertificateRejected:
         closed = negation(after) if strict else after
         table = certificate_for(closed, closed, options, budget)
@@ -105,13 +96,13 @@ def _table(after: Formula, outer: Ring, strict: bool, claim: Claim, options: Opt
 
 
 def _chains(
-    conditions: Sequence[Condition], free: int, walls: set[Poly], claim: Claim, budget: Budget
+    conditions: Sequence[critical_values.Condition], free: int, walls: set[Poly], claim: Claim, budget: Budget
 ) -> list[list[Row]]:
     """For each set that may be active a chain to polynomials whose common divisor vanishes in the walls alone."""
     outer = Ring.of(conditions[0].poly.ring.names[:free])
 
     def enough(polys: Sequence[Poly]) -> bool:
-        return bool(polys) and all(f.convert(outer) in walls for f, _ in common(polys).factors()[1])
+        return bool(polys) and all(f.convert(outer) in walls for f, _ in critical_values.common(polys).factors()[1])
 
     equations = [c.poly for c in conditions if c.is_equation]
     rows = []
@@ -126,7 +117,7 @@ def _chains(
 class _Cells:
     """Points of the block and weights that exclude it, the last one used first."""
 
-    def __init__(self, conditions: Sequence[Condition], claim: Claim, budget: Budget) -> None:
+    def __init__(self, conditions: Sequence[critical_values.Condition], claim: Claim, budget: Budget) -> None:
         self.conditions, self.claim, self.budget = conditions, claim, budget
         self.points: list[Values] = []
         self.weights: list[Values] = []
@@ -149,18 +140,18 @@ class _Cells:
     def shows(self, k: int, values: Values, inside: bool) -> bool:
         if inside:
             return all(c.holds((*values, *self.points[k])) for c in self.conditions)
-        return is_positive(over(self.sums[k], values))
+        return critical_values.is_positive(critical_values.over(self.sums[k], values))
 
     def propose(self, values: Values, inside: bool) -> None:
         """A new point, or new weights, which may be wrong."""
-        forms = [_form(over(c.matrix, values)) for c in self.conditions]
+        forms = [_form(critical_values.over(c.matrix, values)) for c in self.conditions]
         point, weights = proposed(forms)
         if inside and point is not None:
             self.points.append(tuple(point))
             self.recent[True].insert(0, len(self.points) - 1)
-        elif not inside and weights is not None and are_weights(self.conditions, weights):
+        elif not inside and weights is not None and critical_values.are_weights(self.conditions, weights):
             self.weights.append(tuple(weights))
-            self.sums.append(weighted(self.conditions, weights))
+            self.sums.append(critical_values.weighted(self.conditions, weights))
             self.recent[False].insert(0, len(self.weights) - 1)
         else:
             raise self.claim.fail("neither a point nor weights found for a cell")

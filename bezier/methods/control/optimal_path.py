@@ -11,18 +11,9 @@ import qe
 from bezier.curves.containment import Inside
 from bezier.curves.scalar import Vector
 from bezier.input.stored import numbers
+from bezier.methods.control import terms
 from bezier.methods.control.statements import Statement
 from bezier.methods.control.system import System
-from bezier.methods.control.terms import (
-    check_bound_of,
-    check_optimum_of,
-    has_member,
-    member,
-    named_multipliers,
-    near_points,
-    optimal_points,
-    proof_of,
-)
 from bezier.paths.path import Path, Proof, assemble, path_certificates, prove
 from bezier.plans import Begun, Clock, Outcome, Plan
 from bezier.problem import Problem
@@ -76,11 +67,11 @@ class Certified:
     @staticmethod
     def of(system: System, certificate: qe.Certificate) -> Certified:
         """Read the certificate. Raises ``CertificateRejected`` when its point violates a condition of the system."""
-        payload, (_, *near) = proof_of(certificate), certificate.parts
+        payload, (_, *near) = terms.proof_of(certificate), certificate.parts
         multipliers = numbers(payload["multipliers"], payload["field"], "optimum.multipliers")
         if not near:
-            return Certified(certificate, optimal_points(system, payload), multipliers)
-        points, bound = near_points(system, payload, near[0].evidence_for("instance"))
+            return Certified(certificate, terms.optimal_points(system, payload), multipliers)
+        points, bound = terms.near_points(system, payload, near[0].evidence_for("instance"))
         return Certified(certificate, points, multipliers[:-1], bound)
 
 
@@ -94,12 +85,12 @@ def certified_optimum(system: System, certificate: qe.Certificate) -> Certified:
 
 def restored_optimum(system: System, certificate: qe.Certificate) -> Certified:
     """The optimum in the certificates of a folder. Raises ``CertificateRejected`` when it is not this system's."""
-    if has_member(certificate, NEAR[0]):
-        parts = [member(certificate, label, rule) for label, rule in zip(NEAR, RULES_NEAR, strict=True)]
-        check_bound_of(system, parts[0].evidence_for("multipliers"), NEAR[0])
+    if terms.has_member(certificate, NEAR[0]):
+        parts = [terms.member(certificate, label, rule) for label, rule in zip(NEAR, RULES_NEAR, strict=True)]
+        terms.check_bound_of(system, parts[0].evidence_for("multipliers"), NEAR[0])
         return Certified.of(system, qe.Certificate.bundle(zip((BOUND, POINT), parts, strict=True)))
-    optimum = member(certificate, OPTIMUM, "multipliers")
-    check_optimum_of(system, optimum.evidence_for("multipliers"), OPTIMUM)
+    optimum = terms.member(certificate, OPTIMUM, "multipliers")
+    terms.check_optimum_of(system, optimum.evidence_for("multipliers"), OPTIMUM)
     return Certified.of(system, optimum)
 
 
@@ -122,7 +113,7 @@ def drawn(problem: Problem, system: System, certified: Certified) -> dict[str, A
     """What follows from the optimum of a system, as fields of its plan: the path through it, if there is one, the
     labels of the active conditions (near an optimum: of those that bound it) and the value of the objective."""
     points, near = certified.points, certified.bound is not None
-    close = [label for label, _ in named_multipliers(system, certified)] if near else []
+    close = [label for label, _ in terms.named_multipliers(system, certified)] if near else []
     return {
         "problem": problem,
         "system": system,

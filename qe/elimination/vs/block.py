@@ -4,25 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator, Sequence
 
+from qe.elimination.vs import trace as steps
 from qe.elimination.vs.candidates import in_order
 from qe.elimination.vs.plan import Plan, choose, occurring, split_equation
 from qe.elimination.vs.points import SymbolicPoint, Value
 from qe.elimination.vs.result import BlockResult, Choice
 from qe.elimination.vs.substitute import Substitution
-from qe.elimination.vs.trace import (
-    Alternatives,
-    Apart,
-    Attempt,
-    Decided,
-    Eliminated,
-    Part,
-    Split,
-    Substituted,
-    Trace,
-    Traces,
-    Unchanged,
-    without,
-)
 from qe.elimination.vs.univariate_samples import solution
 from qe.exact.ring import Ring
 from qe.formula.build import conj, disj
@@ -59,7 +46,9 @@ def eliminate_block(
     block = frozenset(ring.index[v] for v in variables if v in ring.index)
     result, tree, trace = run.solve(formula, block)
     answer = simplify(result)
-    return BlockResult(answer, tuple(_existentials(answer)), tree, dict(run.stats), Eliminated(formula, result, trace))
+    return BlockResult(
+        answer, tuple(_existentials(answer)), tree, dict(run.stats), steps.Eliminated(formula, result, trace)
+    )
 
 
 def _existentials(formula: Formula) -> Iterator[Exists]:
@@ -70,7 +59,7 @@ def _existentials(formula: Formula) -> Iterator[Exists]:
             yield from _existentials(arg)
 
 
-Solved = tuple[Formula, Node, Trace]
+Solved = tuple[Formula, Node, steps.Trace]
 
 
 class _Run:
@@ -87,7 +76,7 @@ class _Run:
         """``exists block. formula``; the formula is simplified and positive."""
         inside = occurring(formula) & block
         if not inside:
-            return formula, Leaf((), formula), Unchanged()
+            return formula, Leaf((), formula), steps.Unchanged()
         key = (formula, inside)
         found = self.done.get(key)
         if found is None:
@@ -99,7 +88,7 @@ class _Run:
     def _solve(self, formula: Formula, block: frozenset[int]) -> Solved:
         if isinstance(formula, Or):
             answer, tree, traces = self._any(self.solve(part, block) for part in formula.args)
-            return answer, tree, Alternatives(formula.args, traces)
+            return answer, tree, steps.Alternatives(formula.args, traces)
         context, groups = connected(conjuncts(formula), lambda part: occurring(part) & block)
         parts = [conj(members) for _, members in groups]
         if not context and len(parts) == 1:
@@ -110,17 +99,17 @@ class _Run:
         """exists x, y. C and F(x) and G(y)  iff  C and (exists x. F) and (exists y. G)."""
         answers: list[Formula] = list(context)
         trees: list[Node] = []
-        parts_solved: list[Part] = []
+        parts_solved: list[steps.Part] = []
         for part in parts:
             # the context comes along as background knowledge and is taken out of the answer again
             whole, tree, trace = self._step(conj((*context, part)), part, block)
-            formula = without(whole, context)
-            parts_solved.append(Part(part, whole, trace))
+            formula = steps.without(whole, context)
+            parts_solved.append(steps.Part(part, whole, trace))
             if formula == FALSE:
-                return FALSE, NEVER, Apart(context, tuple(parts_solved))
+                return FALSE, NEVER, steps.Apart(context, tuple(parts_solved))
             answers.append(formula)
             trees.append(tree)
-        return conj(answers), All((Leaf((), conj(context)), *trees)), Apart(context, tuple(parts_solved))
+        return conj(answers), All((Leaf((), conj(context)), *trees)), steps.Apart(context, tuple(parts_solved))
 
     def _step(self, formula: Formula, part: Formula, block: frozenset[int]) -> Solved:
         """Eliminate one variable of ``part`` (``formula`` is ``part`` with its context), then the others."""
@@ -131,27 +120,27 @@ class _Run:
         strict = is_open(part, inside)
         plan = choose(formula, inside, strict=strict, highest=self.highest)
         if plan is not None:
-            attempts: list[Attempt] = []
+            attempts: list[steps.Attempt] = []
             answer, tree, traces = self._any(self._alternatives(plan, formula, inside, strict, attempts))
-            return answer, tree, Substituted(plan, formula, inside, tuple(attempts), traces)
+            return answer, tree, steps.Substituted(plan, formula, inside, tuple(attempts), traces)
         cases = split_equation(formula, inside)
         if cases is not None:
             simple = tuple(map(self.simplify, cases))
             answer, tree, traces = self._any(self.solve(case, inside) for case in simple)
-            return answer, tree, Split(cases, simple, traces)
+            return answer, tree, steps.Split(cases, simple, traces)
         remaining = Exists(tuple(self.ring.names[i] for i in sorted(inside)), part)
-        return remaining, Leaf(remaining.variables, part), Unchanged()
+        return remaining, Leaf(remaining.variables, part), steps.Unchanged()
 
     def _decide(self, formula: Formula, variable: str) -> Solved:
         """A formula in one variable alone, of any degree."""
         self.budget.check("real roots")
         found = solution(formula, variable, {})
         if found is None:
-            return FALSE, NEVER, Decided(None)
-        return TRUE, Lifted((Choice(variable, Value(found), 1, formula),), Leaf((), TRUE)), Decided(found)
+            return FALSE, NEVER, steps.Decided(None)
+        return TRUE, Lifted((Choice(variable, Value(found), 1, formula),), Leaf((), TRUE)), steps.Decided(found)
 
     def _alternatives(
-        self, plan: Plan, before: Formula, block: frozenset[int], strict: bool, attempts: list[Attempt]
+        self, plan: Plan, before: Formula, block: frozenset[int], strict: bool, attempts: list[steps.Attempt]
     ) -> Iterator[Solved]:
         """The subproblems of a plan, solved one after the other, cheap test points first."""
         rest = block - {plan.x}
@@ -162,7 +151,7 @@ class _Run:
             result = conj((guard, Substitution(plan.x, point, known, settled)(formula)))
             choice = Choice(self.ring.names[plan.x], point, plan.exponent, before)
             simple = self._counted(thinned(result, rest) if strict else result)
-            attempts.append(Attempt(point, guard, formula, settled, result, simple))
+            attempts.append(steps.Attempt(point, guard, formula, settled, result, simple))
             return self._substituted(choice, simple, rest)
 
         for infinity in plan.infinities:
@@ -171,7 +160,7 @@ class _Run:
             yield attempt(candidate.point, candidate.guard, candidate.formula, settled)
         if plan.degenerate != FALSE:
             simple = self.simplify(plan.degenerate)
-            attempts.append(Attempt(None, TRUE, plan.degenerate, frozenset(), plan.degenerate, simple))
+            attempts.append(steps.Attempt(None, TRUE, plan.degenerate, frozenset(), plan.degenerate, simple))
             yield self.solve(simple, block)
 
     def _counted(self, result: Formula) -> Formula:
@@ -184,14 +173,14 @@ class _Run:
     def _substituted(self, choice: Choice, simple: Formula, rest: frozenset[int]) -> Solved:
         """The subproblem that a choice leaves, solved."""
         if simple == FALSE:
-            return FALSE, NEVER, Unchanged()
+            return FALSE, NEVER, steps.Unchanged()
         answer, tree, trace = self.solve(simple, rest)
         return answer, Lifted((choice,), tree), trace
 
-    def _any(self, alternatives: Iterable[Solved]) -> tuple[Formula, Node, Traces]:
+    def _any(self, alternatives: Iterable[Solved]) -> tuple[Formula, Node, steps.Traces]:
         """The disjunction; stops at the first alternative that is TRUE."""
         trees_by_formula: dict[Formula, Node] = {}
-        traces: list[tuple[Formula, Trace]] = []
+        traces: list[tuple[Formula, steps.Trace]] = []
         for formula, tree, trace in alternatives:
             traces.append((formula, trace))
             if formula == TRUE:
