@@ -30,9 +30,18 @@ import qe
 from bezier.curves.scalar import Vector, add, dot, exactly, scale, subtract
 from bezier.input.numbers import Literal, NotANumber, describe, read, shorten
 from bezier.input.toml_table import POINT, Table
-from bezier.obstacles import polyhedron
 from bezier.obstacles.bodies import Body, Cylinder, HalfSpaceBody, Rounded
 from bezier.obstacles.obstacle import Box, Constraint, Obstacle, ObstacleKind, Piece, from_body
+from bezier.obstacles.polyhedron import (
+    MAX_PARTS,
+    Point,
+    Polytope,
+    from_corners,
+    from_half_spaces,
+    parallelepiped,
+    point,
+    segment,
+)
 from qe.errors import InputError, Unable
 from qe.exact.ring import Ring
 from qe.formula.normal import nnf
@@ -209,14 +218,14 @@ def _stated(value: Any) -> Any:
 
 
 def _ball(table: Table, margin: Fraction) -> Body:
-    return Rounded(polyhedron.point(table.point("centre")), table.positive("radius") + margin)
+    return Rounded(point(table.point("centre")), table.positive("radius") + margin)
 
 
 def _capsule(table: Table, margin: Fraction) -> Body:
     start, end = table.point("start"), table.point("end")
     if start == end:
         raise table.error("end", "a point other than start", "the same point")
-    return Rounded(polyhedron.segment(start, end), table.positive("radius") + margin)
+    return Rounded(segment(start, end), table.positive("radius") + margin)
 
 
 def _box(table: Table, margin: Fraction) -> Body:
@@ -229,12 +238,12 @@ def _box(table: Table, margin: Fraction) -> Body:
             raise table.error("edges", "three vectors other than zero", f"{len(edges)} vectors")
         if any(dot(edges[i], edges[j]) for i, j in ((0, 1), (0, 2), (1, 2))):
             raise table.error("edges", "three orthogonal vectors", "two that are not orthogonal")
-        return Rounded(polyhedron.parallelepiped(table.point("corner"), edges), margin)
+        return Rounded(parallelepiped(table.point("corner"), edges), margin)
     low, high = table.point("low"), table.point("high")
     if not all(a < b for a, b in zip(low, high, strict=True)):
         raise table.error("high", "every coordinate above that of low", f"({', '.join(map(str, high))})")
     sides = [tuple(high[i] - low[i] if k == i else Fraction(0) for k in range(3)) for i in range(3)]
-    return Rounded(polyhedron.parallelepiped(low, sides), margin)
+    return Rounded(parallelepiped(low, sides), margin)
 
 
 def _half_space(table: Table, margin: Fraction) -> Body:
@@ -262,7 +271,7 @@ def _polyhedron(table: Table, margin: Fraction) -> Body:
     key, size, what, build = (
         ("half_spaces", 4, "a list of [a, b, c, d] for a x + b y + c z <= d", _from_rows)
         if "half_spaces" in table.values
-        else ("vertices", 3, "a list of points", polyhedron.from_corners)
+        else ("vertices", 3, "a list of points", from_corners)
     )
     rows = _rows(table, key, size, what)
     try:
@@ -271,20 +280,20 @@ def _polyhedron(table: Table, margin: Fraction) -> Body:
         raise table.error(key, "a bounded polyhedron with interior", str(error)) from None
 
 
-def _from_rows(rows: list[polyhedron.Point]) -> polyhedron.Polytope:
+def _from_rows(rows: list[Point]) -> Polytope:
     for row in rows:
         if not any(row[:3]):
             raise InputError("a half-space with normal zero")
-    return polyhedron.from_half_spaces([(row[:3], row[3]) for row in rows])
+    return from_half_spaces([(row[:3], row[3]) for row in rows])
 
 
-def _rows(table: Table, key: str, size: int, what: str) -> list[polyhedron.Point]:
+def _rows(table: Table, key: str, size: int, what: str) -> list[Point]:
     """A list of at most ``MAX_PARTS`` rows of exact numbers."""
     raw = table.required(key, what)
     if not isinstance(raw, list) or not all(isinstance(row, list) and len(row) == size for row in raw):
         raise table.error(key, what, describe(raw))
-    if len(raw) > polyhedron.MAX_PARTS:
-        raise table.error(key, f"at most {polyhedron.MAX_PARTS} entries", str(len(raw)))
+    if len(raw) > MAX_PARTS:
+        raise table.error(key, f"at most {MAX_PARTS} entries", str(len(raw)))
     result = []
     for i, row in enumerate(raw):
         try:
