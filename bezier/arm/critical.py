@@ -21,7 +21,7 @@ from bezier.arm.ratio import Ratio, reduced
 from bezier.curves import bernstein as bs
 from bezier.curves.curve import Bezier
 from bezier.curves.scalar import rational
-from bezier.proofs.branch import coefficients
+from bezier.proofs.course import coefficients
 from qe.errors import InputError, Unable
 from qe.exact.algebraic import RealAlgebraic, irreducible_roots
 from qe.exact.point_values import roots_between

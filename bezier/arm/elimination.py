@@ -17,7 +17,6 @@ from functools import cached_property
 
 from bezier.arm.model import Arm
 from bezier.arm.ratio import Ratio, constant
-from bezier.arm.roots_of_squares import chain_of
 from bezier.proofs.arm_rows import ArmChain
 from bezier.proofs.held_joint import spread
 from bezier.proofs.square_roots import Surd, back, combined, dot
@@ -90,7 +89,7 @@ class Geometry:
     @staticmethod
     def of(arm: Arm) -> Geometry:
         """Raises ``Unable`` for an arm that this reduction does not fit."""
-        chain = chain_of(arm)
+        chain = arm.chain
         if len(chain.turns) != 3:
             raise Unable(f"inverse kinematics at a point needs three joints; {arm.name} has {len(chain.turns)}")
         if chain.turns[0] == chain.turns[1]:

@@ -10,16 +10,18 @@ from math import ceil, floor, tau
 
 from bezier.arm.continuous import ContinuousMotions
 from bezier.arm.critical import Number
-from bezier.arm.follow import SPARE, Branch, chain_of
+from bezier.arm.follow import SPARE, Branch
 from bezier.arm.joint_path import JointPath, Run
 from bezier.arm.model import Arm
 from bezier.arm.motion_chain import ProvedPiece
+from bezier.arm.motion_chain import piece as proved_piece
 from bezier.arm.roots_of_squares import arm_json
 from bezier.arm.vertical import SignsAlong
 from bezier.curves.curve import Bezier
 from bezier.curves.scalar import exactly
 from bezier.proofs import branch as checked
 from bezier.proofs import inverse_position, joint_motions
+from bezier.proofs.course import Course, coefficients
 from bezier.proofs.square_roots import ONE, Polynomial, Surd, divided
 from qe.certify.verify import verify
 from qe.errors import BudgetExceeded, CertificateRejected, Unable
@@ -48,7 +50,7 @@ def limited_pieces(
         return
     points = [[tuple(exactly(c) for c in p) for p in curve.points] for curve in curves]
     tubes = checked.Tubes(Entry(arm_json(arm), "arm"), points, [joint.limits for joint in arm.joints])
-    tracks = [chain_of(arm).track(checked.coefficients(curve.points)) for curve in curves]
+    courses = [Course(arm.chain, coefficients(curve.points)) for curve in curves]
     for k, branch in parts:
         open_ones = [_turned(piece, turns) for piece in reversed(branch.pieces)]
         while open_ones:
@@ -58,7 +60,7 @@ def limited_pieces(
                 continue
             middle = (piece.low + piece.high) / 2
             halves = [
-                chain_of(arm).piece(tracks[k], low, high, [float(v) for v in piece.at((low + high) / 2)])
+                proved_piece(courses[k], low, high, [float(v) for v in piece.at((low + high) / 2)])
                 for low, high in ((middle, piece.high), (piece.low, middle))
             ]
             if piece.high - piece.low < LEAST or None in halves:

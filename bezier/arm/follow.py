@@ -12,15 +12,15 @@ from bisect import bisect_left
 from collections.abc import Sequence
 from dataclasses import dataclass
 from fractions import Fraction
-from functools import lru_cache
 from operator import attrgetter
 
 from bezier.arm.inverse import Solution
 from bezier.arm.kinematics import wrapped
-from bezier.arm.model import Arm, JointKind
-from bezier.arm.motion_chain import MotionChain, ProvedPiece
+from bezier.arm.model import Arm
+from bezier.arm.motion_chain import ProvedPiece
+from bezier.arm.motion_chain import piece as proved_piece
 from bezier.curves.curve import Bezier
-from bezier.proofs.branch import coefficients
+from bezier.proofs.course import Course, coefficients
 from qe.exact.point_values import pi_ends
 
 FIRST, LEAST = Fraction(1, 16), Fraction(1, 1 << 24)
@@ -82,12 +82,6 @@ class Branch:
         return not is_close or _inside(_turned(solution, near), piece, s)
 
 
-@lru_cache(maxsize=64)
-def chain_of(arm: Arm) -> MotionChain:
-    """The arm in ball arithmetic."""
-    return MotionChain(arm.chain.constants, [j.motion is JointKind.REVOLUTE for j in arm.joints])
-
-
 def follow(
     arm: Arm,
     curve: Bezier,
@@ -103,8 +97,7 @@ def follow(
     ``before``: a piece and a parameter at which its solution is that at ``at`` (of this curve, or of one that this one
     goes on from): the first piece is linked to it. ``stops``: about where solutions meet, where steps get small.
     """
-    chain = chain_of(arm)
-    track = chain.track(coefficients(curve.points))
+    course = Course(arm.chain, coefficients(curve.points))
     forwards = end > at
     pieces: list[ProvedPiece] = []
     here, step = at, FIRST
@@ -113,7 +106,7 @@ def follow(
         low, high = (here, far) if forwards else (far, here)
         if step < NEAR and any(abs(here - stop) < 2 * NEAR for stop in stops):
             break
-        piece = chain.piece(track, low, high, pieces[-1].near((low + high) / 2) if pieces else start)
+        piece = proved_piece(course, low, high, pieces[-1].near((low + high) / 2) if pieces else start)
         last = (pieces[-1], here) if pieces else before
         if piece is None or (last is not None and not _same(*last, piece, here)):
             step /= 2

@@ -16,9 +16,11 @@ from typing import Any
 
 from bezier.arm.choices import BITS, AtPlace, Choice, Exact, Value, allowed, not_negative, spans
 from bezier.arm.elimination import LIFTED, TURNS, Geometry, M, Reduction, T
-from bezier.arm.model import Arm, Matrix
+from bezier.arm.kinematics import floats
+from bezier.arm.model import Arm
 from bezier.arm.ratio import variable
 from bezier.curves.scalar import rational
+from bezier.proofs.square_roots import carried, image
 from qe.errors import InputError, InternalError
 from qe.exact.algebraic import RealAlgebraic
 from qe.exact.point_values import Evaluation, multiple_roots, roots_above
@@ -37,8 +39,8 @@ MOST_BITS = 4096
 """Balls are made no narrower than 2^-4096 to tell solutions from each other."""
 
 NAMES = ("w", "x", "y", "z", "t", "m")
-FRAME = ((0.0, 0.0, 0.0, 1.0), (1.0, 0.0, 0.0, 0.0), (0.0, 1.0, 0.0, 0.0), (0.0, 0.0, 1.0, 0.0))
-"""The place of the end effector and its axes, seen from there: with 1 for a place and 0 for a direction at the end."""
+FRAME = ((0.0, 0.0, 0.0), (1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0))
+"""The place of the end effector and its axes, seen from there."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -181,32 +183,18 @@ def check_kinematics(arm: Arm, solutions: Iterable[Solution], *wanted: Sequence[
 
     ``wanted``: where the end effector is to be, and its three axes where these are asked for. Families are left aside.
     """
-    constants, goals = _constants(arm), [(vector, _floats(goal)) for vector, goal in zip(FRAME, wanted, strict=False)]
-    longest = 1 + sum(abs(row[3]) for m in constants for row in m)
+    (base, *links), goals = floats(arm), [(v, tuple(map(float, goal))) for v, goal in zip(FRAME, wanted, strict=False)]
+    longest = 1 + sum(abs(v) for _, shift in (base, *links) for v in shift)
     for solution in solutions:
         values = [v for v in solution.values if v is not None]
         if len(values) < len(solution.values):
             continue
-        turns = [None if v.pair is None else _floats(v.pair) for v in values]
-        close = CLOSE * (longest + sum(map(abs, _floats(values))))
-        for (x, y, z, one), goal in goals:
-            for k in reversed(range(len(constants))):
-                x, y, z = (a * x + b * y + c * z + d * one for a, b, c, d in constants[k])
-                if k and (pair := turns[k - 1]) is not None:
-                    x, y = pair[0] * x - pair[1] * y, pair[1] * x + pair[0] * y
-                elif k:
-                    z += float(values[k - 1]) * one
-            if any(abs(a - b) > close for a, b in zip((x, y, z), goal, strict=True)):
+        numbers = [tuple(map(float, v.pair or (v.ball,))) for v in values]
+        close = CLOSE * (longest + sum(abs(float(v)) for v in values))
+        for k, (start, goal) in enumerate(goals):
+            end = image(base, carried(links, numbers, start, k == 0), k == 0)
+            if any(abs(a - b) > close for a, b in zip(end, goal, strict=True)):
                 raise InternalError("the solutions of an arm contradict its forward kinematics")
-
-
-def _floats(values: Iterable[Any]) -> tuple[float, ...]:
-    return tuple(map(float, values))
-
-
-@lru_cache(maxsize=64)
-def _constants(arm: Arm) -> tuple[Matrix, ...]:
-    return tuple(tuple(map(_floats, m)) for m in arm.chain.constants)
 
 
 def _misses(here: Point, p: Poly | None, degree: int | None, t: int) -> bool:

@@ -10,7 +10,7 @@ from bezier.arm.choices import Choice, Value
 from bezier.arm.evidence import POSITIONS
 from bezier.arm.inverse import Inverse, Solution
 from bezier.arm.pose import first_three, is_family, motion_of
-from bezier.arm.roots_of_squares import arm_json, chain_of, roots_of, surd_json, surds
+from bezier.arm.roots_of_squares import arm_json, roots_of, surd_json, surds
 from bezier.proofs.arm_rows import read_circle
 from bezier.proofs.inverse_pose import centre
 from qe.errors import Unable
@@ -40,7 +40,7 @@ def inverse_certificate(answer: Inverse) -> Certificate:
 
 def _payloads(answer: Inverse, bits: int, places: int) -> Iterator[dict[str, Json]]:
     """What lists the solutions: over roots of the equation in t for one φ after the other, or alone."""
-    chain, place, pose = chain_of(answer.arm), surds(answer.point), None
+    chain, place, pose = answer.arm.chain, surds(answer.point), None
     boxes: list[Json] = [_box(s, places) for s in answer.solutions]
     if answer.rotation:
         pose = motion_of(answer.point, answer.rotation)

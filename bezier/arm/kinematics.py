@@ -9,7 +9,9 @@ from functools import lru_cache
 from math import pi
 from typing import TYPE_CHECKING, Any
 
-from bezier.arm.model import Arm, JointKind, Matrix, apply, motion, product
+from bezier.arm.model import Arm, in_field
+from bezier.proofs.held_joint import slid, turned
+from bezier.proofs.square_roots import carried, carried_with_rates, image, together
 from qe.errors import InputError
 
 if TYPE_CHECKING:
@@ -18,26 +20,24 @@ if TYPE_CHECKING:
 
     Floats = NDArray[np.float64]
 
-ORIGIN = (Fraction(0),) * 3
+ZERO, ONE = Fraction(0), Fraction(1)
 
 
-def pose(arm: Arm, values: Mapping[str, Any]) -> Matrix:
-    """The frame of the end effector (mm), exactly.
+def pose(arm: Arm, values: Mapping[str, Any]) -> tuple[tuple[Any, ...], ...]:
+    """The frame of the end effector (mm), exactly: the upper three of four rows.
 
     ``values``: for a revolute joint (cosine, sine), for a prismatic one its length in mm; rational numbers, elements of
     ``arm.field``, polynomials: whatever adds and multiplies. Raises ``InputError`` for a missing joint, or cosine and
     sine (as exact numbers) whose squares do not add up to 1.
     """
-    chain = arm.chain
-    whole = chain.constants[0]
-    names = [joint.name for joint in chain.joints]
+    whole, *links = arm.chain.in_numbers(lambda c: in_field(c, arm.field))
+    names = [joint.name for joint in arm.joints]
     if not isinstance(values, Mapping) or not set(values) <= set(names):
         raise InputError(f"values: what the joints {', '.join(names)} are, by their names, expected")
-    for joint, constant in zip(chain.joints, chain.constants[1:], strict=True):
+    for joint, turns, link in zip(arm.joints, arm.chain.turns, links, strict=True):
         if joint.name not in values:
             raise InputError(f"values: a value for the joint {joint.name} expected")
         value = values[joint.name]
-        turns = joint.motion is JointKind.REVOLUTE
         parts = value if turns and isinstance(value, list | tuple) else [value]
         if len(parts) != 1 + turns or any(isinstance(part, str | bool | float | list | tuple) for part in parts):
             what = "cosine and sine" if turns else "a length"
@@ -46,42 +46,21 @@ def pose(arm: Arm, values: Mapping[str, Any]) -> Matrix:
             c, s = parts
             if isinstance(c, int | Fraction) and isinstance(s, int | Fraction) and c * c + s * s != 1:
                 raise InputError(f"{joint.name}: cosine {c} and sine {s} have squares that do not add up to 1")
-        whole = product(product(whole, motion(joint, value)), constant)
-    return whole
+        motion = turned(parts[0], parts[1], ZERO, ONE) if turns else slid(parts[0], ZERO, ONE)
+        whole = together(together(whole, motion), link)
+    return tuple((*row, o) for row, o in zip(*whole, strict=True))
 
 
 def position(arm: Arm, values: Mapping[str, Any]) -> tuple[Any, Any, Any]:
     """The point of the end effector (mm), exactly; see ``pose``."""
-    x, y, z = apply(pose(arm, values), ORIGIN)
+    x, y, z = (row[3] for row in pose(arm, values))
     return x, y, z
 
 
 @lru_cache(maxsize=64)
-def _constants(arm: Arm) -> tuple[Floats, ...]:
-    return tuple(map(_floats, arm.chain.constants))
-
-
-def _floats(m: Matrix) -> Floats:
-    import numpy as np
-
-    return np.array([*([float(v) for v in row] for row in m), [0.0, 0.0, 0.0, 1.0]])
-
-
-def _motions(arm: Arm, q: Floats) -> list[Floats]:
-    """One 4 x 4 matrix for each joint and each row of ``q``; shape of each (N, 4, 4)."""
-    import numpy as np
-
-    result = []
-    for k, joint in enumerate(arm.joints):
-        m = np.zeros((len(q), 4, 4))
-        m[:, range(4), range(4)] = 1.0
-        if joint.motion is JointKind.REVOLUTE:
-            c, s = np.cos(q[:, k]), np.sin(q[:, k])
-            m[:, 0, 0], m[:, 0, 1], m[:, 1, 0], m[:, 1, 1] = c, -s, s, c
-        else:
-            m[:, 2, 3] = q[:, k]
-        result.append(m)
-    return result
+def floats(arm: Arm) -> list[Any]:
+    """The constant motions in floating point."""
+    return arm.chain.in_numbers(float)
 
 
 def _rows(arm: Arm, q: Sequence[Sequence[float]] | Floats) -> Floats:
@@ -97,34 +76,31 @@ def _rows(arm: Arm, q: Sequence[Sequence[float]] | Floats) -> Floats:
     return result
 
 
-def _frames(arm: Arm, q: Sequence[Sequence[float]] | Floats) -> list[Floats]:
-    """What stands before each joint, and the end, shape of each (N, 4, 4)."""
+def _values(arm: Arm, q: Sequence[Sequence[float]] | Floats) -> tuple[list[tuple[Floats, ...]], list[Floats]]:
+    """Cosines and sines, or lengths, of all joints; and the point 0."""
     import numpy as np
 
-    angles, constants = _rows(arm, q), _constants(arm)
-    result = [np.broadcast_to(constants[0], (len(angles), 4, 4))]
-    for m, constant in zip(_motions(arm, angles), constants[1:], strict=True):
-        result.append(result[-1] @ m @ constant)
-    return result
+    rows = _rows(arm, q)
+    columns = zip(arm.chain.turns, rows.T, strict=True)
+    return [(np.cos(v), np.sin(v)) if turns else (v,) for turns, v in columns], [np.zeros(len(rows))] * 3
 
 
 def positions(arm: Arm, q: Sequence[Sequence[float]] | Floats) -> Floats:
     """The points (mm) for many joint positions: ``q`` of shape (N, joints), rad or mm; the result has shape (N, 3)."""
-    return _frames(arm, q)[-1][:, :3, 3]
+    import numpy as np
+
+    base, *links = floats(arm)
+    return np.stack(image(base, carried(links, *_values(arm, q))), axis=1)
 
 
 def jacobians(arm: Arm, q: Sequence[Sequence[float]] | Floats) -> Floats:
-    """The derivatives of the points by the joints, shape (N, 3, joints): mm per rad, or mm per mm.
-
-    The column of a revolute joint is z x (p - o) with its axis through o along z; that of a prismatic one is z.
-    """
+    """The derivatives of the points by the joints, shape (N, 3, joints): mm per rad, or mm per mm."""
     import numpy as np
 
-    *axes, tip = (frame[:, :3, 2:] for frame in _frames(arm, q))
-    columns = [
-        np.cross(axis[..., 0], tip[..., 1] - axis[..., 1]) if joint.motion is JointKind.REVOLUTE else axis[..., 0]
-        for axis, joint in zip(axes, arm.joints, strict=True)
-    ]
+    base, *links = floats(arm)
+    values, origin = _values(arm, q)
+    _, rates = carried_with_rates(links, values, origin)
+    columns = [np.stack([v + origin[0] for v in image(base, rate, False)], axis=1) for rate in rates]
     return np.stack(columns, axis=2)
 
 

@@ -14,7 +14,7 @@ joints.
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable
 from dataclasses import dataclass
 from enum import Enum
 from fractions import Fraction
@@ -22,14 +22,10 @@ from functools import cache, cached_property
 from math import atan2
 from typing import Any
 
-from bezier.curves.scalar import dot, rational
 from bezier.input.numbers import NotANumber, describe, parse, read
-from bezier.proofs.arm_rows import cosine_of
+from bezier.proofs.arm_rows import ArmChain, cosine_of
 from bezier.proofs.square_roots import Surd, primes
 from qe.exact.field import NumberField
-
-Pair = tuple[Any, Any]
-"""Cosine and sine: rational numbers or elements of one field."""
 
 STEP = 12
 """Angles are multiples of pi over this."""
@@ -67,11 +63,6 @@ class Angle:
             return Surd.rational(self.cosine), Surd.rational(self.sine)
         return cosine_of(self.twelfths), cosine_of(self.twelfths - 6)
 
-    def in_field(self, field: NumberField) -> Pair:
-        """Cosine and sine in a field that ``field_of`` found for this angle among others."""
-        c, s = self.exact
-        return in_field(c, field), in_field(s, field)
-
 
 def read_angle(raw: object) -> Angle:
     """The angle that a TOML value stands for. Raises ``NotANumber``."""
@@ -95,9 +86,9 @@ def read_angle(raw: object) -> Angle:
     raise NotANumber(describe(raw))
 
 
-def field_of(angles: Iterable[Angle]) -> NumberField:
-    """The least of Q, Q(sqrt 2), Q(sqrt 3), Q(sqrt 2 + sqrt 3) with the cosines and sines of all these angles."""
-    return _field(frozenset(p for angle in angles for part in angle.exact for d, _ in part.terms for p in primes(d)))
+def field_of(numbers: Iterable[Surd]) -> NumberField:
+    """The least of Q, Q(sqrt 2), Q(sqrt 3), Q(sqrt 2 + sqrt 3) with all these numbers."""
+    return _field(frozenset(p for number in numbers for d, _ in number.terms for p in primes(d)))
 
 
 @cache
@@ -112,7 +103,7 @@ def _field(roots: frozenset[int]) -> NumberField:
 
 def in_field(value: Surd, field: NumberField) -> Any:
     """A sum of the square roots of 1, 2, 3 and 6 in a field that has these: a rational number where it is one."""
-    return sum((q * _root(d, field) for d, q in value.terms), ZERO)
+    return sum((q * _root(d, field) for d, q in value.terms), Fraction(0))
 
 
 @cache
@@ -124,13 +115,6 @@ def _root(d: int, field: NumberField) -> Any:
     if field.degree == 4:
         return (theta**3 - 9 * theta) / 2 if d == 2 else (11 * theta - theta**3) / 2
     return theta
-
-
-Matrix = tuple[tuple[Any, ...], ...]
-"""A rigid motion: the upper three of four rows."""
-
-ZERO, ONE = Fraction(0), Fraction(1)
-IDENTITY: Matrix = ((ONE, ZERO, ZERO, ZERO), (ZERO, ONE, ZERO, ZERO), (ZERO, ZERO, ONE, ZERO))
 
 
 class Convention(Enum):
@@ -172,15 +156,6 @@ class Row:
     is_within: bool = False
 
 
-@dataclass(frozen=True, slots=True)
-class Chain:
-    """``constants[0] M(q_1) constants[1] ... M(q_n) constants[n]``, M the motion of a joint about or along its z
-    axis."""
-
-    constants: tuple[Matrix, ...]
-    joints: tuple[Joint, ...]
-
-
 @dataclass(frozen=True)
 class Arm:
     """An arm: its rows from the base on, and what is said about it (``name``, ``reference``)."""
@@ -213,73 +188,16 @@ class Arm:
         return any(joint.limits is not None for joint in self.joints)
 
     @cached_property
-    def field(self) -> NumberField:
-        """The field of all constants."""
-        return field_of(angle for row in self.rows for angle in (row.alpha, row.theta))
+    def chain(self) -> ArmChain:
+        """The rows with what lies between two moving joints multiplied out."""
+        kinds = [None if row.joint is None else row.joint.motion is JointKind.REVOLUTE for row in self.rows]
+        rows = (
+            (Surd.rational(row.a), row.alpha.exact, Surd.rational(row.d), row.theta.exact, turning)
+            for row, turning in zip(self.rows, kinds, strict=True)
+        )
+        return ArmChain.of(self.convention is Convention.MODIFIED, rows)
 
     @cached_property
-    def chain(self) -> Chain:
-        """The rows with what lies between two moving joints multiplied out."""
-        constants, joints, open_part = [], [], IDENTITY
-        for row in self.rows:
-            before, after = self.parts(row)
-            open_part = product(open_part, before)
-            if row.joint is not None:
-                constants.append(open_part)
-                joints.append(row.joint)
-                open_part = IDENTITY
-            open_part = product(open_part, after)
-        return Chain(tuple(map(_plain, (*constants, open_part))), tuple(joints))
-
-    def parts(self, row: Row) -> tuple[Matrix, Matrix]:
-        """The motions of a row before and after its joint."""
-        across = product(turn_x(row.alpha.in_field(self.field)), translation((row.a, ZERO, ZERO)))
-        along = product(turn_z(row.theta.in_field(self.field)), translation((ZERO, ZERO, row.d)))
-        if self.convention is Convention.MODIFIED:
-            return across, along
-        return IDENTITY, product(along, across)
-
-
-def motion(joint: Joint, value: Any) -> Matrix:
-    """The motion of a joint: ``value`` is (cosine, sine) of a revolute one, the length of a prismatic one."""
-    return turn_z(value) if joint.motion is JointKind.REVOLUTE else translation((ZERO, ZERO, value))
-
-
-def turn_z(pair: Pair) -> Matrix:
-    """The rotation about the z axis with this cosine and sine."""
-    c, s = pair
-    return ((c, -s, ZERO, ZERO), (s, c, ZERO, ZERO), IDENTITY[2])
-
-
-def turn_x(pair: Pair) -> Matrix:
-    """The rotation about the x axis with this cosine and sine."""
-    c, s = pair
-    return (IDENTITY[0], (ZERO, c, -s, ZERO), (ZERO, s, c, ZERO))
-
-
-def translation(shift: Iterable[Any]) -> Matrix:
-    """The translation by a vector (mm)."""
-    return tuple((*row[:3], t) for row, t in zip(IDENTITY, shift, strict=True))
-
-
-def product(a: Matrix, b: Matrix) -> Matrix:
-    """The motion ``b`` followed by ``a``."""
-    *axes, shift = zip(*b, strict=True)
-    turned = (tuple(dot(row[:3], axis) for axis in axes) for row in a)
-    return tuple((*row, v) for row, v in zip(turned, apply(a, shift), strict=True))
-
-
-def apply(a: Matrix, point: Sequence[Any]) -> tuple[Any, ...]:
-    """The image of a point."""
-    return tuple(dot(row[:3], point) + row[3] for row in a)
-
-
-def inverse(a: Matrix) -> Matrix:
-    """The inverse motion: the rotation part is orthogonal."""
-    *axes, shift = zip(*a, strict=True)
-    return tuple((*axis, -dot(axis, shift)) for axis in axes)
-
-
-def _plain(a: Matrix) -> Matrix:
-    """The same, with numbers that are rational as such: they are what is computed with fastest."""
-    return tuple(tuple(v if (number := rational(v)) is None else number for v in row) for row in a)
+    def field(self) -> NumberField:
+        """The field of all constants."""
+        return field_of(c for rows, shift in self.chain.constants for row in (*rows, shift) for c in row)

@@ -25,7 +25,7 @@ from bezier.arm.choices import BITS, MOST_BITS, Choice, Exact, Value
 from bezier.arm.elimination import TURNS
 from bezier.arm.inverse import Inverse, Solution, check_kinematics, exact_number, listed, solution_of
 from bezier.arm.model import Arm
-from bezier.arm.roots_of_squares import chain_of, roots_of, surds, zeros_among
+from bezier.arm.roots_of_squares import roots_of, surds, zeros_among
 from bezier.curves.scalar import rational
 from bezier.proofs import inverse_pose
 from bezier.proofs.arm_rows import ArmChain
@@ -81,8 +81,8 @@ def solve_pose(arm: Arm, point: Sequence[Any], rotation: Sequence[Sequence[Any]]
         raise InputError(f"{expected} expected")
     numbers = tuple(exact_number(v, "point") for v in point)
     rows = tuple(tuple(exact_number(v, "rotation") for v in row) for row in rotation)
-    chain, pose = chain_of(arm), motion_of(numbers, rows)
-    is_wrist = inverse_pose.centre(chain) is not None
+    chain, pose = arm.chain, motion_of(numbers, rows)
+    is_wrist = centre(chain) is not None
     if not is_motion(pose):
         raise InputError("rotation: a matrix with orthogonal columns of length 1 and determinant 1 expected")
     try:

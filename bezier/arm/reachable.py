@@ -25,16 +25,15 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass
-from fractions import Fraction
 from math import hypot, lcm
 from typing import Any
 
 import qe
 from bezier.arm.elimination import Geometry
 from bezier.arm.inverse import geometry_of
-from bezier.arm.model import Arm, Joint, JointKind, apply, in_field, inverse, motion, product
+from bezier.arm.model import Arm, Joint, JointKind, in_field
 from bezier.arm.ratio import Ratio, constant, variable
-from bezier.proofs.square_roots import Triple, dot
+from bezier.proofs.square_roots import Triple, back, carried, dot, image
 from bezier.proofs.three_joints import rows_of
 from qe.errors import Unable
 from qe.exact.ring import Ring
@@ -81,10 +80,8 @@ def reachable_set(arm: Arm) -> Torus:
     """The reachable set. Raises ``Unable`` for an arm of another shape; then ``inverse`` decides single points."""
     shift = _check_shape(geometry_of(arm))
     a_squared, c = (in_field(v, arm.field) for v in (dot(shift[:2], shift[:2]), shift[2]))
-    second = arm.chain.constants[2]
-    centre = [row[3] for row in second]
-    end = tuple(row[3] for row in arm.chain.constants[3])
-    first_squared, second_squared = (dot(v[:2], v[:2]) for v in (centre, end))
+    shifts = (constant[1][:2] for constant in arm.chain.constants[2:])
+    first_squared, second_squared = (in_field(dot(v, v), arm.field) for v in shifts)
     a, r1, r2 = (float(v) ** 0.5 for v in (a_squared, first_squared, second_squared))
     if not (a > abs(r1 - r2) * (1 + 1e-9) and 2 * a + abs(r1 - r2) < (r1 + r2) * (1 - 1e-9)):
         raise Unable(f"the reachable set of {arm.name} has a hole, which has no closed form here")
@@ -124,19 +121,18 @@ def reachable_formula(arm: Arm, *, timeout: float | None = SECONDS, check: bool 
 
 def question(arm: Arm) -> Formula:
     """That the arm reaches (x, y, z): the formula with quantifiers."""
-    chain, joints = arm.chain, arm.chain.joints
+    joints = arm.joints
     bound = ["w"] * (arm.field.degree > 1)
     names = [name for k in range(1, len(joints)) for name in _names(k, joints[k])]
     ring = Ring.of(("w", *PLACE, *names))
     conditions = [*_generator(arm, ring)]
-    q = chain.constants[1]
-    for k, (joint, after) in enumerate(zip(joints[1:], chain.constants[2:], strict=True), start=1):
-        values = [variable(ring, name, arm.field) for name in _names(k, joint)]
-        conditions += _within(joint, values)
-        q = product(product(q, motion(joint, tuple(values) if len(values) == 2 else values[0])), after)
     zero = constant(ring, 0, arm.field)
-    tip = [zero + v for v in apply(q, (Fraction(0),) * 3)]
-    p = [zero + v for v in apply(inverse(chain.constants[0]), [variable(ring, name, arm.field) for name in PLACE])]
+    base, *links = arm.chain.in_numbers(lambda c: zero + in_field(c, arm.field))
+    values = [[variable(ring, name, arm.field) for name in _names(k, joints[k])] for k in range(1, len(joints))]
+    for joint, value in zip(joints[1:], values, strict=True):
+        conditions += _within(joint, value)
+    tip = image(links[0], carried(links[1:], values, [zero] * 3))
+    p = image(back(base), [variable(ring, name, arm.field) for name in PLACE])
     if joints[0].motion is JointKind.REVOLUTE:
         squares = [v[0] * v[0] + v[1] * v[1] for v in (tip, p)]
         pairs = [(tip[2], p[2]), (squares[0], squares[1])]

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
-from functools import lru_cache, reduce
+from functools import reduce
 from itertools import pairwise
 from math import lcm
 from operator import mul
@@ -13,7 +13,6 @@ from typing import Any
 
 from bezier.arm.model import Angle, Arm
 from bezier.curves.scalar import rational
-from bezier.proofs.arm_rows import ArmChain, read_chain
 from bezier.proofs.nested_roots import Place
 from bezier.proofs.square_roots import ONE, Polynomial, Surd, Triple, enclosure, primes
 from qe.errors import Unable
@@ -21,7 +20,7 @@ from qe.exact.algebraic import RealAlgebraic, irreducible_roots, real_roots
 from qe.exact.algebraic_text import square_part
 from qe.exact.balls import precision
 from qe.exact.ring import Ring
-from qe.proof.entry import Entry, Json
+from qe.proof.entry import Json
 
 APPARENT = 400
 """So many binary places show of most numbers that they are not 0."""
@@ -49,12 +48,6 @@ def _angle(angle: Angle) -> Json:
 def surd_json(value: Any) -> Json:
     """A sum of square roots as [factor, number under the root]."""
     return [[str(q), d] for d, q in sorted(square_roots(value).items()) if q]
-
-
-@lru_cache(maxsize=64)
-def chain_of(arm: Arm) -> ArmChain:
-    """The arm in the numbers of the checker."""
-    return read_chain(Entry(arm_json(arm), "arm"))
 
 
 def surds(numbers: Sequence[Any]) -> Triple:

@@ -27,7 +27,6 @@ from bezier.arm.elimination import M, T
 from bezier.arm.inverse import Inverse, solve, solve_at
 from bezier.arm.model import Arm, Joint, JointKind
 from bezier.arm.ratio import Ratio, constant, variable
-from bezier.arm.roots_of_squares import chain_of
 from bezier.curves.curve import Bezier
 from bezier.proofs.held_joint import Held
 from qe.errors import Unable
@@ -220,7 +219,7 @@ def _relation(along: AlongCurve, joint: int) -> Poly:
     """H(s, q), with the variables t, m for the cosine and the sine, or t for the length."""
     arm, one = along.arm, constant(along.point[0].top.ring, 1, along.arm.field)
     value = [variable(one.top.ring, name, arm.field) for name in (T, M)]
-    chain = chain_of(arm)
+    chain = arm.chain
     held = Held.of(chain, joint, value if chain.turns[joint] else value[:1], one.by)
     for result, needs in held.relations(along.point):
         if not any(_on_circle(need) for need in needs) and (p := _on_circle(result)):

@@ -18,12 +18,11 @@ from dataclasses import replace
 from fractions import Fraction
 from itertools import takewhile
 
-from flint import arb, arb_series
+from flint import arb_series
 
-from bezier.arm.kinematics import ORIGIN
-from bezier.arm.model import Arm, JointKind, apply
-from bezier.arm.motion_chain import ball_of
-from bezier.proofs.duals import around, ball, radius_above
+from bezier.arm.model import Arm
+from bezier.proofs.course import around, ball, radius_above
+from bezier.proofs.square_roots import STILL, Surd, carried, image
 from bezier.trajectories.piecewise import Row, Trajectory
 from qe.errors import InputError, Unable
 from qe.exact.balls import precision
@@ -64,10 +63,10 @@ def frames_of(arm: Arm, joints: Trajectory, error: Fraction, numbers: Iterable[i
 def is_fixed(arm: Arm, number: int) -> bool:
     """Whether the origin of the frame behind so many rows stays where it is: it is on the axis of each joint before."""
     chain = replace(arm, rows=arm.rows[:number]).chain
-    place = ORIGIN
-    for constant, joint in zip(chain.constants[:0:-1], chain.joints[::-1], strict=True):
-        place = apply(constant, place)
-        if joint.motion is not JointKind.REVOLUTE or any(place[:2]):
+    place = STILL[1]
+    for link, turns in zip(chain.constants[:0:-1], chain.turns[::-1], strict=True):
+        place = image(link, place)
+        if not turns or any(place[:2]):
             return False
     return True
 
@@ -94,8 +93,8 @@ class _Chain:
 
     def __init__(self, arm: Arm) -> None:
         with precision(BITS):
-            self.constants = [[[ball_of(v) for v in row] for row in m] for m in arm.chain.constants]
-        self.turns = [joint.motion is JointKind.REVOLUTE for joint in arm.joints]
+            self.base, *self.links = arm.chain.in_numbers(Surd.ball)
+        self.turns = arm.chain.turns
 
     def polynomials(self, q: Sequence[RationalPoly], low: Fraction, high: Fraction, error: Fraction) -> Row | None:
         """By the time since ``low``, closer to the end point than ``error`` until ``high``; None where they are not."""
@@ -116,25 +115,15 @@ class _Chain:
 
     def _tip(self, q: Sequence[RationalPoly], t: arb_series) -> list[arb_series]:
         """The end point with the joints at q(t)."""
-        p = [arb_series([0], prec=t.prec)] * 3
-        moving = q[: len(self.turns)]
-        for constant, turns, poly in zip(self.constants[:0:-1], self.turns[::-1], moving[::-1], strict=True):
-            x, y, z = _placed(constant, p)
+        values = list[tuple[arb_series, ...]]()
+        for turns, poly in zip(self.turns, q, strict=False):
             value = arb_series([0], prec=t.prec)
             for c in reversed(poly.coefficients()):
                 value = value * t + ball(c)
-            if turns:
-                s, c = value.sin(), value.cos()
-                p = [c * x - s * y, s * x + c * y, z]
-            else:
-                p = [x, y, z + value]
-        return _placed(self.constants[0], p)
+            values.append((value.cos(), value.sin()) if turns else (value,))
+        return list(image(self.base, carried(self.links, values, [arb_series([0], prec=t.prec)] * 3)))
 
 
 def _power_below(value: Fraction) -> Fraction:
     """A power of two, at most the value and more than a quarter of it."""
     return Fraction(2) ** (value.numerator.bit_length() - value.denominator.bit_length() - 1)
-
-
-def _placed(rows: Sequence[Sequence[arb]], p: Sequence[arb_series]) -> list[arb_series]:
-    return [sum((a * x for a, x in zip(row, p, strict=False)), arb_series([row[3]], prec=p[0].prec)) for row in rows]

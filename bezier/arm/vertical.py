@@ -28,8 +28,8 @@ from bezier.arm.model import Arm
 from bezier.arm.ratio import Ratio, variable
 from bezier.arm.roots_of_squares import RootPlace, roots_of
 from bezier.curves.curve import Bezier
-from bezier.curves.scalar import exactly
-from bezier.proofs.joint_motions import Along, Between, Label, Plane, target_of
+from bezier.proofs.course import coefficients, seen_from_base
+from bezier.proofs.joint_motions import Along, Between, Label, Plane
 from bezier.proofs.square_roots import Polynomial, dot
 from qe.errors import CertificateRejected, InputError, Unable
 from qe.proof.entry import Entry
@@ -101,9 +101,9 @@ class SignsAlong:
         """Raises ``Unable`` where W or Q vanishes along the whole curve."""
         if curve.dimension != 3:
             raise InputError(f"a path of the arm is in space: dimension 3 expected, {curve.dimension} found")
-        points = [tuple(exactly(c) for c in point) for point in curve.points]
+        points = coefficients(curve.points)
         try:
-            along = Along.of(arm.plane, target_of(arm.geometry.chain, points), Entry(None, "curve"))
+            along = Along.of(arm.plane, seen_from_base(arm.geometry.chain, points), Entry(None, "curve"))
         except Unable:
             where = "on the axis of the first joint, or along a border of what is reached"
             raise Unable(f"the whole curve is {where}") from None

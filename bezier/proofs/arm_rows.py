@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable, Iterable
 from dataclasses import dataclass
 from fractions import Fraction
+from typing import Any
 
 from bezier.proofs import square_roots as sr
 from bezier.proofs.square_roots import STILL, ZERO, Interval, Motion, Surd, Triple, back, together, turn
@@ -13,6 +15,9 @@ from qe.proof.entry import Entry
 MOST_ROWS, MOST_TERMS, MOST_BITS = 40, 16, 20_000
 Box = tuple[Interval, ...]
 """Cosine and sine, or the length, of a joint."""
+Pair = tuple[Surd, Surd]
+Row = tuple[Surd, Pair, Surd, Pair, bool | None]
+"""a, alpha, d, theta (cosines and sines), and whether the joint of the row turns; None where there is none."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -22,14 +27,33 @@ class ArmChain:
     constants: tuple[Motion, ...]
     turns: tuple[bool, ...]
 
+    @staticmethod
+    def of(modified: bool, rows: Iterable[Row]) -> ArmChain:
+        """Of rows in the modified or the standard convention (Craig, section 3.5)."""
+        constants, turns, open_part = list[Motion](), list[bool](), STILL
+        for a, alpha, d, theta, turning in rows:
+            across, along = turn((1, 2), alpha, (a, ZERO, ZERO)), turn((0, 1), theta, (ZERO, ZERO, d))
+            before, after = (across, along) if modified else (STILL, together(along, across))
+            open_part = together(open_part, before)
+            if turning is not None:
+                constants.append(open_part)
+                turns.append(turning)
+                open_part = STILL
+            open_part = together(open_part, after)
+        return ArmChain((*constants, open_part), tuple(turns))
+
     @property
     def reversed(self) -> ArmChain:
         """Read from the hand to the base: every joint goes the other way."""
         return ArmChain(tuple(back(m) for m in self.constants[::-1]), self.turns[::-1])
 
+    def in_numbers(self, number: Callable[[Surd], Any]) -> list[Any]:
+        """The constant motions in numbers of another kind."""
+        return [([list(map(number, row)) for row in rows], list(map(number, o))) for rows, o in self.constants]
+
 
 def read_chain(entry: Entry) -> ArmChain:
-    """The rows of an arm (Craig, section 3.5)."""
+    """The rows of an arm."""
     convention, rows = entry.fields("convention", "rows")
     modified = convention.text() == "modified"
     if not modified and convention.text() != "standard":
@@ -37,24 +61,18 @@ def read_chain(entry: Entry) -> ArmChain:
     listed = list(rows.items())
     if len(listed) > MOST_ROWS:
         raise rows.fail(f"expected at most {MOST_ROWS} rows")
-    constants, turns, open_part = list[Motion](), list[bool](), STILL
-    for row in listed:
-        a, alpha, d, theta, joint = row.fields("a", "alpha", "d", "theta", "joint")
-        across = turn((1, 2), _angle(alpha), (_rational(a), ZERO, ZERO))
-        along = turn((0, 1), _angle(theta), (ZERO, ZERO, _rational(d)))
-        if joint.value is not None and joint.text() not in ("revolute", "prismatic"):
-            raise joint.fail("expected null, revolute or prismatic")
-        before, after = (across, along) if modified else (STILL, together(along, across))
-        open_part = together(open_part, before)
-        if joint.value is not None:
-            constants.append(open_part)
-            turns.append(joint.text() == "revolute")
-            open_part = STILL
-        open_part = together(open_part, after)
-    return ArmChain((*constants, open_part), tuple(turns))
+    return ArmChain.of(modified, map(_row, listed))
 
 
-def _angle(entry: Entry) -> tuple[Surd, Surd]:
+def _row(row: Entry) -> Row:
+    a, alpha, d, theta, joint = row.fields("a", "alpha", "d", "theta", "joint")
+    if joint.value is not None and joint.text() not in ("revolute", "prismatic"):
+        raise joint.fail("expected null, revolute or prismatic")
+    turning = None if joint.value is None else joint.text() == "revolute"
+    return _rational(a), _angle(alpha), _rational(d), _angle(theta), turning
+
+
+def _angle(entry: Entry) -> Pair:
     """An integer k for k pi / 12, or [cosine, sine]."""
     if isinstance(entry.value, int) and not isinstance(entry.value, bool):
         if abs(entry.value) > 24:

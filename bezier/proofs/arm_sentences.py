@@ -8,20 +8,42 @@ pose, bring the origin and two axes to the same place (the third axis follows, a
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from itertools import combinations
 from math import lcm, prod
 
 from bezier.proofs.arm_rows import ArmChain, Box
-from bezier.proofs.square_roots import ONE, STILL, ZERO, Motion, Surd, Triple, primes
+from bezier.proofs.square_roots import ONE, STILL, ZERO, Motion, Surd, Triple, carried, image, primes
 from qe.exact.ring import Poly, Ring
 from qe.formula.build import atom, conj, disj, exists, forall, iff, implies, neg
 from qe.formula.syntax import Formula, Relation
 
-Expression = dict[tuple[str, ...], Surd]
-"""A polynomial: coefficients by products of variables."""
+
+@dataclass(frozen=True)
+class Expression:
+    """A polynomial: coefficients by products of variables."""
+
+    terms: dict[tuple[str, ...], Surd]
+
+    def __add__(self, other: Expression) -> Expression:
+        total = dict(self.terms)
+        for product, c in other.terms.items():
+            total[product] = total.get(product, ZERO) + c
+        return Expression({product: c for product, c in total.items() if c})
+
+    def __neg__(self) -> Expression:
+        return Expression({product: -c for product, c in self.terms.items()})
+
+    def __sub__(self, other: Expression) -> Expression:
+        return self + -other
+
+    def __mul__(self, other: Expression) -> Expression:
+        pairs = ((a, b, c * d) for a, c in self.terms.items() for b, d in other.terms.items())
+        return sum((Expression({tuple(sorted((*a, *b))): c}) for a, b, c in pairs), Expression({}))
+
+
 ALONG = "s"
 """The parameter of a curve."""
 ROOT = "root"
@@ -34,49 +56,12 @@ Chosen = Mapping[int, Sequence[tuple[Box, Box]] | None]
 
 def constant(value: Surd) -> Expression:
     """A number as a polynomial."""
-    return {(): value} if value else {}
+    return Expression({(): value} if value else {})
 
 
-def _sum(parts: Iterable[Expression]) -> Expression:
-    total: Expression = {}
-    for part in parts:
-        for product, c in part.items():
-            total[product] = total.get(product, ZERO) + c
-    return {product: c for product, c in total.items() if c}
-
-
-def _by(part: Expression, factor: Surd, *names: str) -> Expression:
-    return {tuple(sorted((*product, *names))): c * factor for product, c in part.items()} if factor else {}
-
-
-def _moved(motion: Motion, vector: Sequence[Expression], is_point: bool) -> list[Expression]:
-    rows, shift = motion
-    return [
-        _sum((*(_by(v, c) for c, v in zip(row, vector, strict=True)), constant(o) if is_point else {}))
-        for row, o in zip(rows, shift, strict=True)
-    ]
-
-
-def _through(
-    chain: ArmChain, names: Sequence[Sequence[str]], start: Triple, is_point: bool, back: bool
-) -> list[Expression]:
-    """A point or a direction behind the last constant motion of a chain, seen from before its first; ``back``: the
-    joints go the other way."""
-    unit = -ONE if back else ONE
-    vector = _moved(chain.constants[-1], [constant(c) for c in start], is_point)
-    for motion, turns, joint in list(zip(chain.constants, chain.turns, names, strict=False))[::-1]:
-        x, y, z = vector
-        if turns:
-            c, s = joint
-            vector = [
-                _sum((_by(x, ONE, c), _by(y, -unit, s))),
-                _sum((_by(x, unit, s), _by(y, ONE, c))),
-                z,
-            ]
-        elif is_point:
-            vector = [x, y, _sum((z, _by(constant(unit), ONE, *joint)))]
-        vector = _moved(motion, vector, is_point)
-    return vector
+def variable(name: str) -> Expression:
+    """A variable as a polynomial."""
+    return Expression({(name,): ONE})
 
 
 @dataclass(frozen=True)
@@ -89,33 +74,38 @@ class ArmEquations:
     @staticmethod
     def at_point(chain: ArmChain, point: Sequence[Expression]) -> ArmEquations:
         """The end point is there."""
-        names = _names(chain)
-        end = _through(chain, names, ORIGIN, True, False)
-        return ArmEquations(names, tuple(_difference(a, b) for a, b in zip(end, point, strict=True)))
+        names, (base, *links) = _names(chain), chain.in_numbers(constant)
+        values = [list(map(variable, joint)) for joint in names]
+        end = image(base, carried(links, values, _constants(ORIGIN)))
+        return ArmEquations(names, tuple(a - b for a, b in zip(end, point, strict=True)))
 
     @staticmethod
     def on_curve(chain: ArmChain, coefficients: Sequence[Sequence[Fraction]]) -> ArmEquations:
         """The same for a point of a curve, whose coordinates are polynomials in ``ALONG``."""
-        point = [{(ALONG,) * k: Surd.rational(c) for k, c in enumerate(row) if c} for row in coefficients]
+        point = [Expression({(ALONG,) * k: Surd.rational(c) for k, c in enumerate(row) if c}) for row in coefficients]
         return ArmEquations.at_point(chain, point)
 
     @staticmethod
     def at_pose(chain: ArmChain, pose: Motion) -> ArmEquations:
         """The end point and the axes of the end effector are there."""
         names, half = _names(chain), (len(chain.turns) + 1) // 2
-        first = ArmChain(chain.constants[: half + 1], chain.turns[:half])
-        last = ArmChain((STILL, *chain.constants[half + 1 :]), chain.turns[half:]).reversed
+        values = [list(map(variable, joint)) for joint in names]
+        base, *links = chain.in_numbers(constant)
+        last = ArmChain((STILL, *chain.constants[half + 1 :]), chain.turns[half:]).reversed.in_numbers(constant)
+        # a joint that goes the other way has the opposite sine, or length
+        behind = [[*value[:-1], -value[-1]] for value in values[half:][::-1]]
+        ((rows, shift),) = ArmChain((pose,), ()).in_numbers(constant)
         expressions = list[Expression]()
         for start, is_point in ((ORIGIN, True), (STILL[0][0], False), (STILL[0][1], False)):
-            ahead = _through(first, names[:half], start, is_point, False)
-            behind = _moved(pose, _through(last, names[half:][::-1], start, is_point, True), is_point)
-            expressions += [_difference(a, b) for a, b in zip(ahead, behind, strict=True)]
+            ahead = image(base, carried(links[:half], values[:half], _constants(start), is_point), is_point)
+            end = image(last[0], carried(last[1:], behind, _constants(start), is_point), is_point)
+            expressions += [a - b for a, b in zip(ahead, image((rows, shift), end, is_point), strict=True)]
         return ArmEquations(names, tuple(expressions))
 
     @property
     def primes(self) -> tuple[int, ...]:
         """Whose square roots occur."""
-        radicands = {d for e in self.expressions for c in e.values() for d, _ in c.terms}
+        radicands = {d for e in self.expressions for c in e.terms.values() for d, _ in c.terms}
         return tuple(sorted({p for d in radicands for p in primes(d)}))
 
     def variables(self, number: int | None = None) -> tuple[str, ...]:
@@ -226,15 +216,15 @@ def _in_arc(ring: Ring, angle: Sequence[str], low: Sequence[str], high: Sequence
     return disj((small, conj((sine(low, high, Relation.LT), outside))))
 
 
-def _difference(a: Expression, b: Expression) -> Expression:
-    return _sum((a, _by(b, -ONE)))
+def _constants(point: Triple) -> list[Expression]:
+    return list(map(constant, point))
 
 
 def _poly(expression: Expression, ring: Ring) -> Poly:
     """A positive multiple with integer coefficients."""
-    below = lcm(*(q.denominator for c in expression.values() for _, q in c.terms))
+    below = lcm(*(q.denominator for c in expression.terms.values() for _, q in c.terms))
     total = ring.constant(0)
-    for product, c in expression.items():
+    for product, c in expression.terms.items():
         variables = prod(map(ring.var, product), start=ring.constant(1))
         for d, q in c.terms:
             roots = (ring.var(f"{ROOT}{p}") for p in primes(d))

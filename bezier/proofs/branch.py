@@ -5,33 +5,26 @@ last, some joints solve the equations of the arm (``bezier.proofs.arm_sentences`
 for is checked all the same: that they depend continuously on the parameter, are the only ones in boxes of angles,
 and keep the limits.
 
-``pieces``: on [low, high] of a curve, joint values within ``radius`` of centre + slope (s - middle). THEOREM (Krawczyk
-1969; Neumaier, Interval Methods for Systems of Equations, section 5.1, with a parameter): with f(σ, r) the end point at
-centre + slope σ + r minus the curve at middle + σ, and any matrix C, if -C f(σ, 0) + (I - C ∂f/∂r(σ, R)) R lies in the
-interior of the box R for all σ, there is exactly one r in R with f = 0, for every σ; it lies in that image and depends
-continuously on σ. The first joint moves everything rigidly: with its line centre + slope σ taken back from the
-curve's point, seen from the base, f has the same zeros, and is as tame near the axis of that joint as elsewhere.
-Neighbouring pieces belong together when the image of the one lies in the box of the other at their common parameter:
-then both have the same solution there. ``limits``: for each joint null, or two values between which it stays
-(``bezier.proofs.joint_limits``).
+``pieces``: on [low, high] of a curve, joint values within ``radius`` of centre + slope (s - middle), one solution for
+every s by Krawczyk's test (``bezier.proofs.course``). Neighbouring pieces belong together when the image of the one
+lies in the box of the other at their common parameter: then both have the same solution there. ``limits``: for each
+joint null, or two values between which it stays (``bezier.proofs.joint_limits``).
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import cache
 from itertools import pairwise
-from math import comb
 from typing import Any
 
-from bezier.proofs import duals
+from bezier.proofs import course
 from bezier.proofs.arm_rows import read_chain
 from bezier.proofs.arm_sentences import ALONG, ArmEquations, between, ring_of, with_roots
-from bezier.proofs.duals import Dual, Vector
+from bezier.proofs.course import Course, Lines, around, coefficients, radius_above
 from bezier.proofs.joint_limits import Ends, JointStretch, KeptLimits, read_limits
-from bezier.proofs.square_roots import STILL, Motion, Surd, back, image
 from qe.exact.balls import ends, precision
 from qe.expert.sentences import Sentence, stated
 from qe.formula.build import conj, exists, forall, implies
@@ -40,7 +33,6 @@ from qe.kernel.step import Limits
 from qe.proof.entry import Entry
 
 MOST_POINTS = 60
-SIGMA, DIRECTIONS = 0, 4
 Points = list[tuple[Fraction, ...]]
 
 
@@ -99,11 +91,6 @@ def sentence(evidence: Entry) -> Sentence:
     return with_roots(ring, listed, conj(parts)), TRUE
 
 
-def coefficients(points: Sequence[Sequence[Any]]) -> list[list[Fraction]]:
-    """Of the coordinates of a curve, as polynomials in its parameter."""
-    return [powers([Fraction(p[i]) for p in points]) for i in range(3)]
-
-
 def read_curve(entry: Entry) -> Points:
     """The control points of a curve in space."""
     points = [tuple(c.rational() for c in point.items()) for point in entry.items()]
@@ -134,24 +121,19 @@ class Tubes:
         if len(chain.turns) != 3:
             raise arm.fail("expected rows, three of them with a joint")
         along = [coefficients(points) for points in curves]
-        self._turns, self._limits = chain.turns, KeptLimits(chain, along, limits)
-        with precision(duals.BITS):
-            self._links = [duals.rigid(motion) for motion in chain.constants[1:]]
-            self._curves = [list(_seen_from(chain.constants[0], curve)) for curve in along]
+        self._limits, self._courses = KeptLimits(chain, along, limits), [Course(chain, curve) for curve in along]
 
     def image(self, piece: Tube) -> list[Fraction]:
         """Radii of a box around 0 that holds the image, which is proved to lie inside the piece's box."""
-        half, nothing = duals.around((piece.high - piece.low) / 2), [duals.ball(Fraction(0))] * 4
-        box = [duals.around(r) for r in piece.radius]
-        with precision(duals.BITS):
-            centre, along, whole = (
-                self._error(piece, sigma, r)
-                for sigma, r in ((nothing[0], nothing[1:]), (half, nothing[1:]), (half, box))
-            )
-            image = duals.krawczyk(centre, along, whole, half, box)
-            if image is None or not duals.strictly_within(image, piece.radius):
+        with precision(course.BITS):
+            image = self._image(piece, Fraction(0), (piece.high - piece.low) / 2, piece.radius)
+            if image is None or not course.strictly_within(image, piece.radius):
                 raise piece.entry.fail("the box is not proved to hold exactly one solution")
-            return [duals.radius_above(x) for x in image]
+            return [radius_above(x) for x in image]
+
+    def _image(self, piece: Tube, *box: Any) -> Any:
+        lines = Lines.of((piece.low + piece.high) / 2, piece.centre, piece.slope)
+        return self._courses[piece.curve].image(lines, *box)
 
     def unlimited(self, piece: Tube, radii: Sequence[Fraction]) -> int | None:
         """The first joint that is not proved to keep its limits on a piece with an image of these radii."""
@@ -162,49 +144,14 @@ class Tubes:
         )
         return next((part.joint for part in parts if not self._limits.keeps(part)), None)
 
-    def _error(self, piece: Tube, sigma: Any, r: Sequence[Any]) -> list[Dual]:
-        """f(σ, r) with its derivatives, the line of the first joint taken back."""
-        step = duals.seed(sigma, SIGMA, DIRECTIONS)
-        lines = [
-            duals.number(c, DIRECTIONS) + duals.number(v, DIRECTIONS) * step
-            for c, v in zip(piece.centre, piece.slope, strict=True)
-        ]
-        ahead = [duals.seed(x, j + 1, DIRECTIONS) for j, x in enumerate(r)]
-        s, target = duals.number((piece.low + piece.high) / 2, DIRECTIONS) + step, duals.origin(DIRECTIONS)
-        for c in reversed(self._curves[piece.curve]):
-            target = [t * s + x for t, x in zip(target, c, strict=True)]
-        point = duals.origin(DIRECTIONS)
-        joints = (ahead[0], *(q + x for q, x in zip(lines[1:], ahead[1:], strict=True)))
-        for turns, link, q in reversed(list(zip(self._turns, self._links, joints, strict=True))):
-            point = duals.moved(turns, q, link(point))
-        target = duals.moved(self._turns[0], -lines[0], target)
-        return [a - b for a, b in zip(point, target, strict=True)]
-
     def _at_end(self, piece: Tube, radii: Sequence[Fraction], end: int) -> list[tuple[Fraction, Fraction]]:
         """Bounds of the joints at one end: for this σ alone, the image of what holds the solution holds it too."""
         s = (piece.low, piece.high)[end]
         middle = piece.at(s)
-        with precision(duals.BITS):
-            sigma, nothing = duals.ball(s - (piece.low + piece.high) / 2), duals.ball(Fraction(0))
-            box = [duals.around(r) for r in radii]
-            centre = self._error(piece, sigma, [nothing] * 3)
-            image = duals.krawczyk(centre, centre, self._error(piece, sigma, box), nothing, box)
-            around = [ends(x) for x in (box if image is None else image)]
-        return [(m + low, m + high) for m, (low, high) in zip(middle, around, strict=True)]
-
-
-def powers(values: list[Fraction]) -> list[Fraction]:
-    """Coefficients of 1, s, s², … from Bernstein coefficients: c_k = C(n,k) Σ_j (-1)^(k-j) C(k,j) b_j."""
-    n = len(values) - 1
-    return [comb(n, k) * sum((-1) ** (k - j) * comb(k, j) * values[j] for j in range(k + 1)) for k in range(n + 1)]
-
-
-def _seen_from(base: Motion, curve: Sequence[Sequence[Fraction]]) -> Iterator[Vector]:
-    """The vectors of 1, s, s², … of a curve, moved back by a motion."""
-    rows, shift = back(base)
-    for k, vector in enumerate(zip(*curve, strict=True)):
-        seen = image((rows, shift if k == 0 else STILL[1]), [Surd.rational(c) for c in vector])
-        yield [duals.constant(c, DIRECTIONS) for c in seen]
+        with precision(course.BITS):
+            box = self._image(piece, s - (piece.low + piece.high) / 2, Fraction(0), radii)
+            bounds = [ends(x) for x in box or [around(r) for r in radii]]
+        return [(m + low, m + high) for m, (low, high) in zip(middle, bounds, strict=True)]
 
 
 def _check_link(one: Tube, first: list[Fraction], other: Tube, second: list[Fraction], curves: list[Points]) -> None:

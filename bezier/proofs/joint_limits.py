@@ -21,8 +21,8 @@ from dataclasses import dataclass
 from fractions import Fraction
 from functools import cache
 
-from bezier.proofs import duals
 from bezier.proofs.arm_rows import ArmChain
+from bezier.proofs.course import BITS, around, ball, dual
 from bezier.proofs.held_joint import Held
 from bezier.proofs.square_roots import ONE, ZERO, Polynomial, Surd, primes
 from qe.exact.balls import precision
@@ -112,13 +112,13 @@ class KeptLimits:
         ]
         point = [sum((c * s**k for k, c in enumerate(row)), Fraction(0)) for row in rows]
         listed = [[not any(needs) for _, needs in held.relations(list(map(Surd.rational, point)))] for held in probes]
-        with precision(duals.BITS):
-            value = duals.seed(duals.ball(middle) + duals.around(part.radius), 0, 1)
-            parts = value.sine_cosine()[::-1] if turns else (value,)
-            held = Held.of(self._chain, joint, parts, lambda c: duals.constant(c, 1))
-            relations = held.relations([duals.number(c, 1) for c in point])
+        with precision(BITS):
+            value = dual(ball(middle) + around(part.radius), 1)
+            parts = (value.cos(), value.sin()) if turns else (value,)
+            held = Held.of(self._chain, joint, parts, lambda c: dual(c.ball()))
+            relations = held.relations([dual(ball(c)) for c in point])
             return any(
-                not relation.slope[0].contains(0)
+                not relation[1].contains(0)
                 for (relation, _), holds in zip(relations, zip(*listed, strict=True), strict=True)
                 if all(holds)
             )

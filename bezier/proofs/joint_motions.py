@@ -35,9 +35,10 @@ from fractions import Fraction
 from bezier.proofs import square_roots as sr
 from bezier.proofs.arm_rows import ArmChain, read_chain, read_number, read_surd
 from bezier.proofs.arm_sentences import ALONG, ArmEquations, between, ring_of, with_roots
-from bezier.proofs.branch import coefficients, read_curve
+from bezier.proofs.branch import read_curve
+from bezier.proofs.course import coefficients, seen_from_base
 from bezier.proofs.nested_roots import NO_ROOT, Nested, Root, nested
-from bezier.proofs.square_roots import ONE, ZERO, Polynomial, Surd, Triple, back, combined, constant_sign, dot
+from bezier.proofs.square_roots import ONE, ZERO, Polynomial, Surd, Triple, constant_sign, dot
 from qe.errors import Unable
 from qe.expert.sentences import Sentence, stated
 from qe.formula.build import conj, disj, forall, implies
@@ -205,7 +206,7 @@ def check_motions(evidence: Entry, limits: Limits) -> Sentence:
         points = read_curve(curve)
         if last is not None and points[0] != last:
             raise curve.fail("the curve does not begin where the one before ends")
-        along, last = Along.of(plane, target_of(chain, points), curve), points[-1]
+        along, last = Along.of(plane, seen_from_base(chain, coefficients(points)), curve), points[-1]
         betweens, samples = _cut(along, listed, limits.budget)
         for i, sample in enumerate(samples):
             labels = along.labels(sample)
@@ -257,13 +258,6 @@ def _intervals(places: Entry) -> Iterator[tuple[int, Fraction, Fraction]]:
             begin = high
         if begin <= 1:
             yield k, begin, Fraction(1)
-
-
-def target_of(chain: ArmChain, points: list[tuple[Fraction, ...]]) -> list[Polynomial]:
-    """The curve in the frame of the first joint."""
-    rows, shift = back(chain.constants[0])
-    curve = [Polynomial.of(map(Surd.rational, row)) for row in coefficients(points)]
-    return [combined(row, curve) + Polynomial.of([o]) for row, o in zip(rows, shift, strict=True)]
 
 
 def _cut(along: Along, listed: Entry, budget: Budget) -> tuple[list[Between], list[Fraction]]:

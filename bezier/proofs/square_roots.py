@@ -19,11 +19,11 @@ from functools import reduce
 from itertools import pairwise, zip_longest
 from math import comb, gcd, isqrt
 from operator import add, mul
-from typing import Protocol, TypeVar
+from typing import Any, Protocol, TypeVar
 
 from flint import arb, fmpq
 
-from qe.exact.balls import ball_sign, ends, precision
+from qe.exact.balls import ball_sign, precision
 
 LARGEST = 10**10
 """Radicands are factored by trial division, up to this."""
@@ -96,10 +96,9 @@ class Surd:
         """A ball around it, at FLINT's working precision."""
         return sum((arb(d).sqrt() * rational_ball(q) for d, q in self.terms), arb(0))
 
-    def interval(self, bits: int) -> Interval:
-        """Rational numbers around it, from balls of so many bits."""
-        with precision(bits):
-            return ends(self.ball())
+    def __float__(self) -> float:
+        with precision(BITS[0]):
+            return float(self.ball())
 
     def sign(self) -> int:
         """-1, 0 or 1."""
@@ -281,9 +280,41 @@ def together(first: Motion, second: Motion) -> Motion:
     return (a, b, c), image(first, second[1])
 
 
-def image(motion: Motion, point: Sequence[Surd]) -> Triple:
-    """Where a point comes to lie."""
-    return tuple(dot(row, point) + o for row, o in zip(*motion, strict=True))
+def image(motion: Any, point: Sequence[Any], is_point: bool = True) -> tuple[Any, ...]:
+    """Where a point comes to lie, or which direction a direction takes."""
+    rows, shift = motion
+    return tuple(dot(row, point) + o if is_point else dot(row, point) for row, o in zip(rows, shift, strict=True))
+
+
+def moved(value: Sequence[Any], point: Sequence[Any], is_point: bool = True) -> Sequence[Any]:
+    """What a joint makes of a point or a direction: ``value`` holds cosine and sine of a turn about the third axis, or
+    the length of a slide along it."""
+    x, y, z = point
+    if len(value) == 2:
+        c, s = value
+        return (c * x - s * y, s * x + c * y, z)
+    return (x, y, z + value[0]) if is_point else point
+
+
+def carried(
+    links: Sequence[Any], values: Sequence[Sequence[Any]], point: Sequence[Any], is_point: bool = True
+) -> Sequence[Any]:
+    """What joints make of a point, each of them followed by the constant motion of a link."""
+    for link, value in zip(links[::-1], values[::-1], strict=True):
+        point = moved(value, image(link, point, is_point), is_point)
+    return point
+
+
+def carried_with_rates(
+    links: Sequence[Any], values: Sequence[Sequence[Any]], point: Sequence[Any]
+) -> tuple[Sequence[Any], list[Sequence[Any]]]:
+    """The same of a point, and its derivatives by the angles and lengths."""
+    rates = list[Sequence[Any]]()
+    for link, value in zip(links[::-1], values[::-1], strict=True):
+        point = moved(value, image(link, point))
+        rates = [moved(value, image(link, rate, False), False) for rate in rates]
+        rates.insert(0, (-point[1], point[0], 0) if len(value) == 2 else (0, 0, 1))
+    return point, rates
 
 
 def back(motion: Motion) -> Motion:

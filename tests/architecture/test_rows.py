@@ -171,7 +171,7 @@ def test_rows() -> None:
     assert not wrong
 
 
-BALLS = ("qe.kernel.arithmetic.", "qe.expert.arithmetic.", "bezier.proofs.duals", "bezier.proofs.square_roots")
+BALLS = ("qe.kernel.arithmetic.", "qe.expert.arithmetic.", "bezier.proofs.course", "bezier.proofs.square_roots")
 BALLS += ("bezier.arm.motion_chain", "bezier.arm.tip")
 
 

@@ -16,7 +16,7 @@ from bezier.arm.command import in_words
 from bezier.arm.inverse import Inverse, Solution, solve
 from bezier.arm.kinematics import pose
 from bezier.arm.model import Joint, JointKind
-from bezier.arm.pose import chain_of, rotation_of, solve_pose
+from bezier.arm.pose import rotation_of, solve_pose
 from bezier.arm.reader import load_arm, read_arm
 from bezier.proofs.inverse_pose import centre, meeting
 from bezier.proofs.square_roots import Surd
@@ -91,9 +91,9 @@ def test_shapes() -> None:
     rows = ['alpha = "pi/2"', "a = 70", 'alpha = "pi/2"', 'alpha = "-pi/2"', 'alpha = "pi/2"', "d = 1"]
     for k, is_wrist in ((2, True), (3, False), (4, False)):
         body = "".join(f'[[row]]\njoint = "q{i}"\n{slide if i == k else row}\n' for i, row in enumerate(rows))
-        assert (centre(chain_of(read_arm('convention = "standard"\n' + body))) is not None) == is_wrist
-    assert centre(chain_of(PUMA)) is not None and centre(chain_of(SIX)) is None and centre(chain_of(SKEW)) is None
-    assert centre(chain_of(STANDARD)) == (Surd.rational(60), Surd.rational(0))
+        assert (centre(read_arm('convention = "standard"\n' + body).chain) is not None) == is_wrist
+    assert centre(PUMA.chain) is not None and centre(SIX.chain) is None and centre(SKEW.chain) is None
+    assert centre(STANDARD.chain) == (Surd.rational(60), Surd.rational(0))
     parallel = ((1, 0, 0), (0, 1, 0), (0, 0, 1))
     assert meeting((tuple(tuple(map(Surd.rational, row)) for row in parallel), ())) is None  # type: ignore[arg-type]
     across = ((1, 0, 0), (0, 0, -1), (0, 1, 0))  # the axis (0, -1, 0) through (0, 3, 4)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from fractions import Fraction
-from math import pi, sqrt
+from math import cos, pi, sin, sqrt
 
 import numpy as np
 import pytest
@@ -13,9 +13,9 @@ from hypothesis import strategies as st
 
 from bezier.arm import command
 from bezier.arm.inverse import Inverse
-from bezier.arm.kinematics import _constants, _motions, pose
+from bezier.arm.kinematics import floats, pose
 from bezier.arm.model import Arm
-from bezier.arm.pose import chain_of, rotation_of, solve_pose
+from bezier.arm.pose import rotation_of, solve_pose
 from bezier.arm.reader import load_arm, read_arm, read_exact
 from bezier.arm.robot import Robot
 from bezier.proofs.inverse_pose import has_parallel_axes
@@ -64,17 +64,23 @@ def at_the_pose_of(arm: Arm, pairs: Pairs) -> Inverse:
 
 
 def frames(arm: Arm, found: Inverse) -> np.ndarray:
-    q = np.array([s.angles for s in found.solutions], dtype=float)
-    constants = _constants(arm)
-    whole = np.broadcast_to(constants[0], (len(q), 4, 4))
-    for motion, constant in zip(_motions(arm, q), constants[1:]):
-        whole = whole @ motion @ constant
-    return whole[:, :3]
+    return np.array([frame(arm, s.angles) for s in found.solutions])
+
+
+def frame(arm: Arm, q: Sequence[float | None]) -> np.ndarray:
+    """The frame of the end effector by products of matrices."""
+    base, *links = ([[*row, o] for row, o in zip(*motion)] + [[0, 0, 0, 1]] for motion in floats(arm))
+    whole = np.array(base)
+    for turns, value, link in zip(arm.chain.turns, q, links):
+        assert value is not None
+        c, s, d = (cos(value), sin(value), 0) if turns else (1, 0, value)
+        whole = whole @ [[c, -s, 0, 0], [s, c, 0, 0], [0, 0, 1, d], [0, 0, 0, 1]] @ link
+    return whole[:3]
 
 
 def test_an_arm_with_irrational_constants() -> None:
     pairs = pairs_of([Fraction(k, 2) for k in (1, -1, 2, 1, 3, -2)])
-    assert has_parallel_axes(chain_of(SKEW))
+    assert has_parallel_axes(SKEW.chain)
     m = pose(SKEW, dict(zip((j.name for j in SKEW.joints), pairs)))
     found = solve_pose(SKEW, [round(float(row[3])) for row in m], rotation_of((1, 2, -1, 3)))
     assert all(np.allclose(f[:, 3], [float(c) for c in found.point]) for f in frames(SKEW, found))
@@ -97,13 +103,9 @@ def test_no_solution_is_missed_by_newton(start: list[float]) -> None:
 
     found = solve_pose(SIX, (120, 90, 200), rotation_of((2, 1, -1, 1)))
     target = np.array([[float(v) for v in (*row, p)] for row, p in zip(found.rotation, found.point)])
-    constants = _constants(SIX)
 
     def gap(q: np.ndarray) -> np.ndarray:
-        whole = constants[0]
-        for motion, constant in zip(_motions(SIX, q[None]), constants[1:]):
-            whole = whole @ motion[0] @ constant
-        return ((whole[:3] - target) * [100, 100, 100, 1]).ravel()
+        return ((frame(SIX, q) - target) * [100, 100, 100, 1]).ravel()
 
     ended = least_squares(gap, start, xtol=1e-14, ftol=1e-14, gtol=1e-14, max_nfev=40)
     if ended.cost < 1e-18:

@@ -20,7 +20,7 @@ from bezier.arm.joint_path import joint_path
 from bezier.arm.reader import load_arm, read_arm
 from bezier.curves.curve import Bezier
 from bezier.proofs.arm_rows import ArmChain, read_chain
-from bezier.proofs.arm_sentences import ArmEquations, constant, ring_of, with_roots
+from bezier.proofs.arm_sentences import ArmEquations, constant, ring_of, variable, with_roots
 from bezier.proofs.branch import check_branch
 from bezier.proofs.square_roots import Motion, Surd
 from qe.certify.verify import verify
@@ -87,7 +87,7 @@ def values(equations: ArmEquations, chain: ArmChain, joints: list[float]) -> lis
     found = []
     for expression in equations.expressions:
         total = 0.0
-        for variables, c in expression.items():
+        for variables, c in expression.terms.items():
             term = as_float(c)
             for name in variables:
                 term *= named[name]
@@ -102,7 +102,7 @@ def test_the_end_point_is_where_the_equations_say(seed: int) -> None:
     chain = chain_of(rng, 3)
     joints = [rng.uniform(-3, 3) for _ in range(3)]
     place = [row[3] for row in whole(chain, joints)[:3]]
-    at_origin = ArmEquations.at_point(chain, [{}, {}, {}])
+    at_origin = ArmEquations.at_point(chain, [constant(Surd.rational(0))] * 3)
     assert all(isclose(a, b, abs_tol=1e-9) for a, b in zip(values(at_origin, chain, joints), place))
     somewhere = ArmEquations.at_point(chain, [constant(Surd.rational(k)) for k in (1, 2, 3)])
     found = values(somewhere, chain, joints)
@@ -154,7 +154,7 @@ def test_the_sentence_of_three_slides_is_true_by_elimination_too() -> None:
     assert qe.decide(claim.equivalence[0], timeout=20) is True
 
 
-CORNER = ArmEquations((("c1", "s1"),), ({("c1",): Surd.rational(1)},))
+CORNER = ArmEquations((("c1", "s1"),), (variable("c1"),))
 """One joint whose cosine is 0."""
 
 
