@@ -5,9 +5,6 @@ Square roots of different squarefree numbers are linearly independent over Q (A.
 integers, fractions, and FLINT's balls.
 
 Polynomials with square roots in their coefficients that have one sign on an interval, proved by subdivision.
-
-On [a, b] a polynomial lies between its smallest and its largest Bernstein coefficient there (R. T. Farouki, CAGD 29,
-2012, section 3). The coefficients are enclosed by balls, and halves follow by de Casteljau's algorithm.
 """
 
 from __future__ import annotations
@@ -17,11 +14,11 @@ from dataclasses import dataclass
 from fractions import Fraction
 from functools import reduce
 from itertools import pairwise, zip_longest
-from math import comb, gcd, isqrt
+from math import gcd, isqrt
 from operator import add, mul
 from typing import Any, Protocol, TypeVar
 
-from flint import arb, fmpq
+from flint import arb, arb_poly, fmpq
 
 from qe.exact.balls import ball_sign, precision
 
@@ -332,52 +329,30 @@ def is_motion(motion: Motion) -> bool:
     return across == c and all(dot(x, y) == value for x, y, value in pairs)
 
 
-BITS = (256, 1024)
+BITS = (512, 2048)
 MOST_SUMS = 20_000_000
 """Of the coefficients of all parts that are looked at."""
 
 
 def constant_sign(p: Polynomial, low: Fraction, high: Fraction) -> int:
     """1 or -1 if p is proved to have this sign everywhere on [low, high], else 0."""
-    ends = {p.at(x).sign() for x in (low, high)}
-    if len(ends) > 1 or ends == {0}:
+    sides = {p.at(x).sign() for x in (low, high)}
+    if len(sides) > 1 or sides == {0}:
         return 0
-    bernstein = _bernstein(p, low, high)
-    return ends.pop() if any(_is_nonzero(bernstein, bits) for bits in BITS) else 0
+    return sides.pop() if any(_is_nonzero(p, low, high, bits) for bits in BITS) else 0
 
 
-def _bernstein(p: Polynomial, low: Fraction, high: Fraction) -> list[Surd]:
-    """b_k = Σ_j C(k,j) / C(n,j) c_j, c the coefficients of p(low + (high - low) u)."""
-    step, composed = Polynomial((Surd.rational(low), Surd.rational(high - low))), Polynomial()
-    for c in reversed(p.coefficients):
-        composed = composed * step + Polynomial.of([c])
-    n = len(p) - 1
-    moved = [*composed, *[ZERO] * (n + 1 - len(composed))]
-    result = []
-    for k in range(n + 1):
-        pairs = [(d, q * Fraction(comb(k, j), comb(n, j))) for j in range(k + 1) for d, q in moved[j].terms]
-        result.append(Surd.of(pairs))
-    return result
-
-
-def _is_nonzero(values: list[Surd], bits: int) -> bool:
-    with precision(2 * bits):
-        parts, count, most = [[v.ball() for v in values]], 0, 200 + MOST_SUMS // len(values) ** 2
-        while parts:
-            part, count = parts.pop(), count + 1
-            if all(x > 0 for x in part) or all(x < 0 for x in part):
-                continue
-            if part[0].contains(0) or part[-1].contains(0) or count > most:
+def _is_nonzero(p: Polynomial, low: Fraction, high: Fraction, bits: int) -> bool:
+    """By halves, until the constant part of p(middle + h u), |u| <= 1, is larger than all others together."""
+    with precision(bits):
+        whole, parts = arb_poly([c.ball() for c in p]), [(low, high)]
+        for _ in range(200 + MOST_SUMS // len(p) ** 2):
+            a, b = parts.pop()
+            middle, *rest = whole(arb_poly([rational_ball((a + b) / 2), rational_ball((b - a) / 2)]))
+            if middle.contains(0):
                 return False
-            parts += _halves(part)
-        return True
-
-
-def _halves(row: list[arb]) -> tuple[list[arb], list[arb]]:
-    """The coefficients on both halves."""
-    left, right = [row[0]], [row[-1]]
-    while len(row) > 1:
-        row = [(a + b) / 2 for a, b in pairwise(row)]
-        left.append(row[0])
-        right.append(row[-1])
-    return left, right[::-1]
+            if not sum(map(abs, rest), arb(0)) < abs(middle):
+                parts += [(a, (a + b) / 2), ((a + b) / 2, b)]
+            elif not parts:
+                return True
+        return False
