@@ -7,23 +7,22 @@ Where the others can follow is the set of angles (or lengths) at which a polynom
 
 from __future__ import annotations
 
+from abc import ABC, abstractmethod
 from collections.abc import Iterator
 from dataclasses import dataclass
 from fractions import Fraction
 from math import ceil, floor, pi
-from typing import Protocol
+from typing import Any
 
-from bezier.arm.elimination import Quotient
 from bezier.arm.model import Joint, JointKind
 from bezier.proofs.families import arcs_of
+from bezier.proofs.nested_roots import JointValue
+from bezier.proofs.square_roots import Surd
 from qe.errors import InternalError, Unable
 from qe.exact.point_values import Ball, Evaluation, angle, pi_ends, roots_above, signs_around
 from qe.exact.ring import Poly
 
 Ends = tuple[Fraction, Fraction]
-Known = tuple[Quotient, ...]
-"""Cosine and sine of a joint that turns, or the length of one that slides."""
-
 BITS = 64
 
 
@@ -65,40 +64,42 @@ class Value:
         return None if self.pair is None else self.pair[1].ends
 
 
-class Exact(Protocol):
+@dataclass(frozen=True, eq=False)
+class Exact(ABC):
     """The exact value of a joint."""
 
+    joint: JointValue
+
+    @abstractmethod
     def value(self, bits: int = BITS) -> Value:
         """The angle or the length, with intervals at most about 2^-bits wide."""
 
+    @abstractmethod
+    def sign(self, number: Any) -> int:
+        """Of one of the numbers that the joint is made of."""
+
     def has_no_sine(self) -> bool:
         """Whether the sine of an angle is 0."""
+        return self.joint.s is not None and not self.sign(self.joint.s)
 
     def length_side(self, limit: Fraction) -> int:
         """The sign of a length minus a limit."""
+        return self.sign(self.joint.c - self.joint.w.by(Surd.rational(limit)))
 
 
 @dataclass(frozen=True, eq=False)
 class AtPlace(Exact):
-    """Of a joint at a point: its cosine and sine, or its length alone."""
+    """At a point, in polynomials (``Ratio``)."""
 
     place: Evaluation
-    known: Known
 
     def value(self, bits: int = BITS) -> Value:
-        if len(self.known) == 1:
-            return Value(self.known[0].at(self.place, bits))
-        pair = self.known[0].at(self.place, bits), self.known[1].at(self.place, bits)
-        return Value(angle(*pair, bits), pair)
+        below, parts = self.joint.w, [v for v in (self.joint.c, self.joint.s) if v is not None]
+        balls = [self.place.quotient(v.top, below.top, Fraction(below.bottom, v.bottom), bits) for v in parts]
+        return Value(balls[0]) if len(balls) == 1 else Value(angle(balls[0], balls[1], bits), (balls[0], balls[1]))
 
-    def has_no_sine(self) -> bool:
-        return self.place.point.sign(self.known[1].top) == 0
-
-    def length_side(self, limit: Fraction) -> int:
-        length = self.known[0]
-        scale, below = length.scale, self.place.point.sign(length.bottom)
-        top = length.top * (scale.numerator * limit.denominator)
-        return below * self.place.point.sign(top - length.bottom * (limit.numerator * scale.denominator))
+    def sign(self, number: Any) -> int:
+        return self.place.point.sign(number.top)
 
 
 MOST_BITS = 4096
@@ -186,16 +187,14 @@ class Edge:
 Span = tuple[Edge, Edge]
 
 
-def not_negative(
-    here: Evaluation, p: Poly, var: int, known: Known, motion: JointKind = JointKind.REVOLUTE
-) -> tuple[Arc, ...] | None:
-    """The values ``known`` of a joint, in the variable ``var`` next after the place, at which p is not negative. The
+def not_negative(here: Evaluation, p: Poly, var: int, joint: JointValue, motion: JointKind) -> tuple[Arc, ...] | None:
+    """The values of a joint, in the variable ``var`` next after the place, at which p is not negative. The
     angle that t misses must be no zero of p, unless it vanishes everywhere."""
     roots = roots_above(here.point, var, p)
     if roots is None:
         return None
     signs = [s > 0 for s in signs_around(here.point, var, p, roots)]
-    ends = [AtPlace(here.extend(root), known) for root in roots]
+    ends = [AtPlace(joint, here.extend(root)) for root in roots]
     if motion is JointKind.PRISMATIC:
         if not roots:
             return None if signs[0] else ()

@@ -19,10 +19,10 @@ from bezier.arm.model import Arm
 from bezier.arm.ratio import Ratio, constant
 from bezier.proofs.arm_rows import ArmChain
 from bezier.proofs.held_joint import spread
+from bezier.proofs.nested_roots import JointValue
 from bezier.proofs.square_roots import Surd, back, combined, dot
-from bezier.proofs.three_joints import Equations, rows_of
+from bezier.proofs.three_joints import Equations, circle, rows_of
 from qe.errors import Unable
-from qe.exact.point_values import Ball, Evaluation
 from qe.exact.ring import Poly, Ring
 
 T, M = "t", "m"
@@ -34,19 +34,6 @@ TURNS = tuple(
 
 LIFTED = 4
 """The degree in t of |κ|² (1 + t²)² and of m², where they do not vanish at the angle that t misses."""
-
-
-@dataclass(frozen=True, slots=True, eq=False)
-class Quotient:
-    """``scale * top / bottom``, polynomials of one ring."""
-
-    top: Poly
-    bottom: Poly
-    scale: Fraction
-
-    def at(self, here: Evaluation, bits: int) -> Ball:
-        """Its value at a point, in a ball at most 2^-bits wide."""
-        return here.quotient(self.top, self.bottom, self.scale, bits)
 
 
 @dataclass(frozen=True, eq=False)
@@ -67,9 +54,8 @@ class Reduction:
     slides."""
     shoulder: tuple[Poly, ...]
     """What vanishes where the point lies on the circle that the origin of the second joint describes."""
-    values: tuple[tuple[Quotient, ...], ...]
-    """Cosine and sine of a joint that turns, the length of one that slides, valid where ``kappa`` and ``axis`` do
-    not vanish."""
+    values: tuple[JointValue, ...]
+    """The joints, in ``Ratio``, valid where ``kappa`` and ``axis`` do not vanish."""
 
     @cached_property
     def coefficients(self) -> tuple[Poly, ...]:
@@ -113,46 +99,22 @@ class Geometry:
     def reduce(self, ring: Ring, point: Sequence[Ratio], turn: tuple[Fraction, Fraction]) -> Reduction:
         """The reduction for a point whose coordinates are polynomials of the ring, with φ of this cosine and sine."""
         field, target, turns = self.arm.field, self.based(point), self.chain.turns
-        rows, shift = self.chain.constants[1]
         t, one, m = Ratio(ring.var(T), 1, field), constant(ring, 1, field), Ratio(ring.var(M), 1, field)
-        factors = weights(t, one, turn) if turns[2] else (one, t)
-        both = Equations.of(turns, (rows, shift), target, self.f, factors)
-        equation, degree, square, parts, slide = both.second_turns() if turns[1] else both.second_slides()
+        factors = circle(t, one, turn) if turns[2] else (one, t)
+        both = Equations.of(turns, self.chain.constants[1], target, self.f, factors)
+        equation, degree, square, parts, slide = both.reduced()
         if square is not None:  # m stands for a multiple, whose square has integer coefficients
             m, square = m * square.scale, Ratio(square.top * square.bottom, 1, field)
-        image, norm, v, kappa = [part + m.by(c) for part, c in parts], factors[0], both.v, None
-        if slide is None:
-            kappa = v[0] * v[0] + v[1] * v[1]
-            over = image[0] * v[0] + image[1] * v[1], v[0] * image[1] - v[1] * image[0]
-            second = tuple(quotient(part, kappa) for part in over)
-        else:
-            second = (quotient(slide[0] + m.by(slide[1]), norm),)
-        q = [combined(row, image) + norm.by(o) for row, o in zip(rows, shift, strict=True)]
-        x, y, z = target
-        axis = x * x + y * y
-        first: tuple[Quotient, ...] = (quotient(norm * z - q[2], norm),)
-        if turns[0]:
-            first = tuple(quotient(part, axis * norm) for part in (x * q[0] + y * q[1], y * q[0] - x * q[1]))
-        shoulder = (axis - one.by(dot(shift[:2], shift[:2])), z - one.by(shift[2])) if all(turns[:2]) else ()
+        joints, shift = both.joints(parts, slide, m, lambda number: number), self.chain.constants[1][1]
+        axis = target[0] * target[0] + target[1] * target[1]
+        shoulder = (axis - one.by(dot(shift[:2], shift[:2])), target[2] - one.by(shift[2])) if all(turns[:2]) else ()
         return Reduction(
             ring=ring,
             equation=equation.top,
             degree=degree if turns[2] else None,
             square=None if square is None else square.top,
-            kappa=None if kappa is None else kappa.top,
+            kappa=joints[1].w.top if turns[1] else None,
             axis=axis.top if turns[0] else None,
             shoulder=tuple(p.top for p in shoulder),
-            values=(first, second, tuple(quotient(w, norm) for w in factors[1:])),
+            values=tuple(joints),
         )
-
-
-def weights(t: Ratio, one: Ratio, turn: tuple[Fraction, Fraction]) -> tuple[Ratio, Ratio, Ratio]:
-    """1 + t², and cos θ and sin θ times it, for θ = φ + 2 arctan t."""
-    c, s = turn
-    norm, minus, double = one + t * t, one - t * t, t * 2
-    return norm, minus * c - double * s, minus * s + double * c
-
-
-def quotient(top: Ratio, bottom: Ratio) -> Quotient:
-    """One over the other."""
-    return Quotient(top.top, bottom.top, Fraction(bottom.bottom, top.bottom))

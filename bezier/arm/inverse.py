@@ -276,7 +276,7 @@ def _solution(arm: Arm, here: Evaluation, reduction: Reduction, ends: tuple[bool
     """``ends``: whether the first joint, and the last one, can be chosen."""
     turns = reduction.kappa is not None and here.point.sign(reduction.kappa) == 0
     free = (ends[0], turns, ends[1])
-    exact = [None if f else AtPlace(here, k) for f, k in zip(free, reduction.values, strict=True)]
+    exact = [None if f else AtPlace(k, here) for f, k in zip(free, reduction.values, strict=True)]
     return solution_of(arm, exact, multiple, [Choice(k) for k in range(3) if free[k]])
 
 
@@ -301,7 +301,6 @@ def _family(arm: Arm, values: Evaluation, reduction: Reduction, on_axis: bool) -
     last = arm.joints[2]
     turns = kappa is not None and not any(here.sign(c) for c in kappa.coefficients(t))
     square = reduction.square
-    known = reduction.values[2]
-    arcs = None if square is None else not_negative(values, square, t, known, last.motion)
+    arcs = None if square is None else not_negative(values, square, t, reduction.values[2], last.motion)
     choices = [Choice(k) for k, free in enumerate((on_axis, turns)) if free]
     return solution_of(arm, (None, None, None), False, [*choices, Choice(2, arcs)])

@@ -16,7 +16,7 @@ from dataclasses import dataclass
 from fractions import Fraction
 from math import tau
 
-from bezier.arm.choices import AtPlace, Exact, full_turns, side
+from bezier.arm.choices import Exact, full_turns, side
 from bezier.arm.continuous import ContinuousMotion, ContinuousMotions
 from bezier.arm.follow import Branch
 from bezier.arm.inverse import Solution, solve
@@ -266,10 +266,7 @@ def _reading(joint: Joint, exact: Exact, value: float) -> Reading:
 
 
 def _sector(exact: Exact, value: float) -> int:
-    assert isinstance(exact, AtPlace), "solutions at points"
-    here, known = exact.place, exact.known
-    cosine, sine = (here.point.sign(q.top) * here.point.sign(q.bottom) * (1 if q.scale > 0 else -1) for q in known)
-    sector = SECTORS[cosine, sine]
+    sector = SECTORS[exact.sign(exact.joint.c), exact.sign(exact.joint.s)]
     if sector * value < 0:
         raise Unable("an angle is too close to half a turn to count its turns")
     return sector

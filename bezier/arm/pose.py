@@ -32,7 +32,7 @@ from bezier.proofs.arm_rows import ArmChain
 from bezier.proofs.families import Arcs, Position, arcs_of, arcs_over
 from bezier.proofs.inverse_position import positions_of
 from bezier.proofs.nested_roots import NO_ROOT, JointValue, Nested, Place, Root, nested, square, turn_between, turn_by
-from bezier.proofs.square_roots import ONE, ZERO, Motion, Polynomial, Surd, Triple, back, is_motion
+from bezier.proofs.square_roots import ONE, ZERO, Motion, Polynomial, Triple, back, is_motion
 from bezier.proofs.three_joints import Positions
 from qe.errors import CertificateRejected, InputError, Unable
 from qe.exact.nearby import rational_between
@@ -195,12 +195,12 @@ def is_family(positions: Positions, roots: Sequence[Place]) -> bool:
 
 def _by_wrist(chain: ArmChain, pose: Motion) -> Placed:
     _, positions = next(first_three(chain, pose[1], pose))
-    equation, third = positions.equation, positions.third
+    equation, third = positions.equation, positions.both.third
     roots = roots_of(equation) if equation else []
     if is_family(positions, roots):
-        if third is None or len(third) == 1:
+        if len(third) < 2:
             raise Unable("a joint that slides can be chosen: for which values the wrist follows is not decided")
-        arm = positions.third_chosen(arcs_over(equation, third, positions.norm, roots) if equation else None)
+        arm = positions.third_chosen(arcs_over(equation, third, positions.both.norm, roots) if equation else None)
         yield from ((whole, False) for whole in _with_wrist(chain, pose, arm))
         return
     for place in roots:
@@ -221,9 +221,7 @@ def _with_wrist(chain: ArmChain, pose: Motion, arm: Position) -> Iterator[Positi
 # --- solutions -------------------------------------------------------------------------------------------------------
 @dataclass(frozen=True, eq=False)
 class OverRoots(Exact):
-    """A joint in the numbers of the checker."""
-
-    joint: JointValue
+    """In the numbers of the checker."""
 
     def value(self, bits: int = BITS) -> Value:
         working = bits + 32
@@ -237,11 +235,8 @@ class OverRoots(Exact):
                 return Value(angle(balls[0], balls[1], bits), (balls[0], balls[1]))
         raise Unable("a joint is not known to enough digits")
 
-    def has_no_sine(self) -> bool:
-        return self.joint.s is not None and not self.joint.s.sign()
-
-    def length_side(self, limit: Fraction) -> int:
-        return (self.joint.c - self.joint.w.by(Surd.rational(limit))).sign()
+    def sign(self, number: Nested) -> int:
+        return number.sign()
 
 
 def _solution(arm: Arm, position: Position, multiple: bool) -> Solution:

@@ -25,7 +25,7 @@ from bezier.arm.critical import Number
 from bezier.arm.elimination import Geometry
 from bezier.arm.inverse import Solution, geometry_of
 from bezier.arm.model import Arm
-from bezier.arm.ratio import Ratio, variable
+from bezier.arm.ratio import variable
 from bezier.arm.roots_of_squares import RootPlace, roots_of
 from bezier.curves.curve import Bezier
 from bezier.proofs.course import coefficients, seen_from_base
@@ -55,26 +55,21 @@ class VerticalArm:
     def _side(self, exact: Exact | None) -> int:
         if not isinstance(exact, AtPlace):
             return 0
-        first, here, field = exact.known, exact.place.point, self.geometry.arm.field
-        point = [variable(here.ring, name, field) for name in "xyz"]
-        x, y, _ = self.geometry.based(point)
+        ring, field = exact.place.point.ring, self.geometry.arm.field
+        x, y, _ = self.geometry.based([variable(ring, name, field) for name in "xyz"])
         ex, ey = self.plane.outwards
-        c, s = (Ratio(q.top * q.scale.numerator, q.scale.denominator, field) for q in first)
-        return here.sign((c * (x.by(ex) + y.by(ey)) + s * (y.by(ex) - x.by(ey))).top) * here.sign(first[0].bottom)
+        return exact.sign(exact.joint.c * (x.by(ex) + y.by(ey)) + exact.joint.s * (y.by(ex) - x.by(ey)))
 
     def _elbow(self, exact: Exact | None) -> int:
         if self.turns == (False, False):
             return 1
         if not isinstance(exact, AtPlace):
             return 0
-        third, f, here, field = exact.known, self.geometry.f, exact.place.point, self.geometry.arm.field
-        values = [Ratio(q.top * q.scale.numerator, q.scale.denominator, field) for q in third]
+        third, f = exact.joint, self.geometry.f
         if not self.turns[1]:
-            total = values[0] + Ratio(third[0].bottom, 1, field).by(dot(f[0][:2], f[1][:2]))
-        else:
-            across = [f[0][0] * g[1] - f[0][1] * g[0] if self.turns[0] else g[2] for g in f[1:]]
-            total = values[0].by(across[0]) + values[1].by(across[1])
-        return here.sign(total.top) * here.sign(third[0].bottom)
+            return exact.sign(third.c + third.w.by(dot(f[0][:2], f[1][:2])))
+        across = [f[0][0] * g[1] - f[0][1] * g[0] if self.turns[0] else g[2] for g in f[1:]]
+        return exact.sign(third.c.by(across[0]) + third.s.by(across[1]))
 
 
 @lru_cache(maxsize=64)

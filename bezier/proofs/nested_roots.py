@@ -197,11 +197,12 @@ def _apparent(number: Residue | Nested) -> int:
 # --- vectors and turns about the third axis ----------------------------------------------------------------------
 @dataclass(frozen=True, eq=False)
 class JointValue:
-    """The angle with cosine and sine ``c / w`` and ``s / w``, w > 0; or the length ``c / w`` where s is None."""
+    """The angle with cosine and sine ``c / w`` and ``s / w``, w > 0; or the length ``c / w`` where s is None. In these
+    numbers, or in others that can be added and multiplied."""
 
-    c: Nested
-    s: Nested | None
-    w: Nested
+    c: Any
+    s: Any
+    w: Any
     is_double: bool = False
     """Whether two solutions of one equation coincide in it."""
 

@@ -15,7 +15,7 @@ the third axis stands still: nothing depends on that joint, and t = 0 stands for
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from typing import Any
@@ -23,7 +23,7 @@ from typing import Any
 from bezier.proofs import square_roots as sr
 from bezier.proofs.families import Arcs, Position, not_negative
 from bezier.proofs.held_joint import spread
-from bezier.proofs.nested_roots import JointValue, Nested, Place, angle, nested
+from bezier.proofs.nested_roots import JointValue, Nested, Place, nested
 from bezier.proofs.square_roots import ONE, ZERO, Interval, Motion, Polynomial, Surd, Triple, back, combined, dot, image
 from qe.errors import Unable
 from qe.options import Budget
@@ -39,21 +39,16 @@ FREE = "a joint can be chosen here"
 @dataclass(frozen=True, slots=True)
 class Positions:
     """``equation`` (E) and ``square`` (S, or None); ``full``: the degree of E where no angle is missed, 0 where t
-    misses none; ``only_at_roots``: the equation is S, because E vanishes. ``image``: M2 v over norm; ``second``: what
-    tells the second joint, if it slides. ``v`` over norm."""
+    misses none; ``only_at_roots``: the equation is S, because E vanishes. ``parts``: M2 v over the norm; ``slide``:
+    what tells the second joint, if it slides."""
 
+    both: Equations
     equation: Polynomial
     full: int
     square: Polynomial | None
+    parts: Sequence[Linear]
+    slide: Linear | None
     only_at_roots: bool
-    image: Sequence[Linear]
-    second: Linear | None
-    v: Sequence[Polynomial]
-    third: tuple[Polynomial, ...] | None
-    norm: Polynomial
-    first: Motion
-    target: Triple
-    turns: tuple[bool, ...]
 
     @staticmethod
     def of(
@@ -66,13 +61,11 @@ class Positions:
     ) -> Positions:
         """The equations of the derivation above; ``constants``: A0, A1, A2. ``phi`` is None where t is a length, or
         where the point stands still."""
-        target = image(back(constants[0]), place)
+        target = [Polynomial.of([c]) for c in image(back(constants[0]), place)]
         stands, t = is_still(turns, e), Polynomial((ZERO, ONE))
-        third: tuple[Polynomial, ...] | None = None if stands else (t,) if phi is None else _circle(*phi)
-        factors = (UNIT if phi is None else UNIT + t * t, *(third or ()))
-        f = spread(constants[2], e, turns[2])[: len(factors)]
-        both = Equations.of(turns, constants[1], [Polynomial.of([c]) for c in target], f, factors)
-        equation, full, square, moved, second = both.second_turns() if turns[1] else both.second_slides()
+        factors = (UNIT,) if stands else (UNIT, t) if phi is None else circle(t, UNIT, phi)
+        both = Equations.of(turns, constants[1], target, spread(constants[2], e, turns[2]), factors)
+        equation, full, square, parts, slide = both.reduced()
         if stands and not equation:
             equation = t
         only_at_roots = not equation
@@ -81,24 +74,19 @@ class Positions:
         full = 0 if phi is None else full
         if equation and len(equation) <= full:
             raise entry.fail("the equation vanishes at the angle that t misses")
-        return Positions(
-            equation, full, square, only_at_roots, moved, second, both.v, third, factors[0], constants[1], target, turns
-        )
+        return Positions(both, equation, full, square, parts, slide, only_at_roots)
 
     def family(self, marks: Entry, budget: Budget) -> Position:
         """The positions where E is the zero polynomial: the third joint can be chosen."""
-        if not self.only_at_roots or self.third is None or not self.turns[2]:
+        third, norm = self.both.third, self.both.norm
+        if not self.only_at_roots or len(third) < 2:
             raise marks.fail("the equation of a third joint that turns does not hold everywhere")
-        return self.third_chosen(
-            not_negative(self.equation, self.third, self.norm, marks, budget) if self.equation else None
-        )
+        return self.third_chosen(not_negative(self.equation, third, norm, marks, budget) if self.equation else None)
 
     def third_chosen(self, arcs: Arcs) -> Position:
         """The positions in which the third joint has these angles."""
-        free = [
-            self.turns[0] and not (self.target[0] or self.target[1]),
-            self.turns[1] and not (self.v[0] or self.v[1]),
-        ]
+        (x, y, _), (u, v, _), turns = self.both.target, self.both.v, self.both.turns
+        free = [turns[0] and not (x or y), turns[1] and not (u or v)]
         chosen: dict[int, Arcs] = {k: None for k in range(2) if free[k]}
         return Position([None, None, None], {**chosen, 2: arcs})
 
@@ -137,21 +125,12 @@ class Positions:
         def at(p: Polynomial) -> Nested:
             return nested(place.value(p))
 
-        norm, v = at(self.norm), [at(p) for p in self.v]
-        moved = [at(p) + m.by(c) for p, c in self.image]
-        rows, shift = self.first
-        q = [combined(row, moved) + norm.by(o) for row, o in zip(rows, shift, strict=True)]
-        one, goal = at(UNIT), [at(Polynomial.of([c])) for c in self.target]
-        first = angle(q, goal, (norm, one)) if self.turns[0] else JointValue(norm * goal[2] - q[2], None, norm)
-        if self.second is None:
-            second = angle(v, moved, (norm, norm))
-        else:
-            second = JointValue(at(self.second[0]) + m.by(self.second[1]), None, norm)
-        third = None
-        if self.third is not None:
-            c, *sine = (at(p) for p in self.third)
-            third = JointValue(c, sine[0] if sine else None, norm)
-        joints = [first, second, third]
+        joints: list[JointValue | None] = list(self.both.joints(self.parts, self.slide, m, at))
+        for k, vector in enumerate((self.both.target, self.both.v)):
+            x, y = map(at, vector[:2])
+            if self.both.turns[k] and not (x * x + y * y).sign():
+                joints[k] = None
+        joints += [None] * (3 - len(joints))
         return Position(joints, {k: None for k in range(3) if joints[k] is None})
 
 
@@ -160,10 +139,11 @@ def is_still(turns: tuple[bool, ...], e: Triple) -> bool:
     return turns[2] and not (e[0] or e[1])
 
 
-def _circle(c: Fraction, s: Fraction) -> tuple[Polynomial, Polynomial]:
-    """cos θ3 and sin θ3 times 1 + t²."""
-    cosine, sine = (Polynomial.of(map(Surd.rational, row)) for row in ((c, -2 * s, -c), (s, 2 * c, -s)))
-    return cosine, sine
+def circle(t: Any, one: Any, phi: tuple[Fraction, Fraction]) -> tuple[Any, Any, Any]:
+    """1 + t², and cos θ and sin θ times it, for θ = φ + 2 arctan t."""
+    c, s = map(Surd.rational, phi)
+    minus, double = one - t * t, t + t
+    return one + t * t, minus.by(c) - double.by(s), minus.by(s) + double.by(c)
 
 
 def rows_of(second: Motion, first_turns: bool) -> tuple[Triple, Triple]:
@@ -175,7 +155,8 @@ def rows_of(second: Motion, first_turns: bool) -> tuple[Triple, Triple]:
 @dataclass(frozen=True, slots=True)
 class Equations:
     """What is left of the two equations, in numbers of any kind that can be added, multiplied, and multiplied by a
-    ``Surd``: polynomials in t, or in more variables. ``second``: A1; v and ``squared``, |v|², times ``norm``.
+    ``Surd``: polynomials in t, or in more variables. ``second``: A1; v, ``squared``, |v|², and ``third``, cosine and
+    sine, or the length, of the third joint, times ``norm``.
 
     The results: E, its full degree in t where the third joint turns, S or None, M2 v times norm, and the length times
     norm of a second joint that slides."""
@@ -184,6 +165,7 @@ class Equations:
     second: Motion
     target: Sequence[Any]
     norm: Any
+    third: Sequence[Any]
     v: Sequence[Any]
     squared: Any
 
@@ -191,13 +173,36 @@ class Equations:
     def of(
         turns: Sequence[bool], second: Motion, target: Sequence[Any], f: Sequence[Any], factors: Sequence[Any]
     ) -> Equations:
-        """v is the sum of f, times ``factors``, over the first of these, the norm."""
-        norm, v = factors[0], [combined(row, factors) for row in zip(*f, strict=True)]
-        if len(f) < 3:
+        """v is the sum of f, times ``factors``, over the first of these, the norm; without the others the third joint
+        moves nothing."""
+        norm, v = factors[0], [combined(row, factors) for row in zip(*f[: len(factors)], strict=True)]
+        if len(factors) < 3:
             squared = dot(v, v)
         else:  # |v|² = |f0|² + |f1|² + 2 cos θ f0·f1 + 2 sin θ f0·f2: f1 and f2 are orthogonal and equally long
             squared = combined(f[0], v).by(TWO) + norm.by(dot(f[1], f[1]) - dot(f[0], f[0]))
-        return Equations(turns, second, target, norm, v, squared)
+        return Equations(turns, second, target, norm, factors[1:], v, squared)
+
+    def joints(self, parts: Sequence[Any], slide: Any, m: Any, at: Callable[[Any], Any]) -> list[JointValue]:
+        """The joints, by M2 v and the length of a second joint that slides, in numbers that ``at`` makes of these:
+        valid where no point is on the axis of a joint."""
+        (rows, shift), norm, v, goal = self.second, at(self.norm), [*map(at, self.v)], [*map(at, self.target)]
+        moved = [at(p) + m.by(c) for p, c in parts]
+        q = [combined(row, moved) + norm.by(o) for row, o in zip(rows, shift, strict=True)]
+        first = JointValue(norm * goal[2] - q[2], None, norm)
+        if self.turns[0]:
+            x, y = goal[:2]
+            first = JointValue(x * q[0] + y * q[1], y * q[0] - x * q[1], (x * x + y * y) * norm)
+        if slide is not None:
+            second = JointValue(at(slide[0]) + m.by(slide[1]), None, norm)
+        else:
+            x, y = v[:2]
+            second = JointValue(x * moved[0] + y * moved[1], x * moved[1] - y * moved[0], x * x + y * y)
+        c, *sine = map(at, self.third) if self.third else (None,)
+        return [first, second, *([JointValue(c, sine[0] if sine else None, norm)] if self.third else [])]
+
+    def reduced(self) -> tuple[Any, int, Any, Sequence[tuple[Any, Surd]], tuple[Any, Surd] | None]:
+        """What is left."""
+        return self._second_turns() if self.turns[1] else self._second_slides()
 
     def _distance(self) -> Any:
         """(|p'|² - |o|² - |v|²) norm."""
@@ -207,7 +212,7 @@ class Equations:
     def _shifted(self, i: int) -> Any:
         return self.norm * self.target[i] - self.norm.by(self.second[1][i])
 
-    def second_turns(self) -> tuple[Any, int, Any, Sequence[tuple[Any, Surd]], None]:
+    def _second_turns(self) -> tuple[Any, int, Any, Sequence[tuple[Any, Surd]], None]:
         """u from the two equations, and |u|² = |(v_x, v_y)|²."""
         (g, n), v = rows_of(self.second, self.turns[0]), self.v
         one, two = (self._distance().by(HALF), self._shifted(2)) if self.turns[0] else map(self._shifted, range(2))
@@ -227,7 +232,7 @@ class Equations:
         u = (along.by(d[0] * over), -d[1] * over), (along.by(d[1] * over), d[0] * over)
         return equation, 2, kappa.by(length) - along * along, (*u, (v[2], ZERO)), None
 
-    def second_slides(self) -> tuple[Any, int, Any, Sequence[tuple[Any, Surd]], tuple[Any, Surd]]:
+    def _second_slides(self) -> tuple[Any, int, Any, Sequence[tuple[Any, Surd]], tuple[Any, Surd]]:
         """d from one of the two equations."""
         (g, n), v, square, full, factor = rows_of(self.second, self.turns[0]), self.v, None, 2, ZERO
         if not self.turns[0]:
