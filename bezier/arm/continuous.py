@@ -1,13 +1,8 @@
 """All continuous joint motions along a path, counted exactly, also through the places where solutions meet.
 
-For arms with a plane that turns (``bezier.arm.vertical``). Between neighbouring zeros of W and of Q(√W) Q(-√W) along a
-curve every solution is simple and none escapes, so each is one arc, a continuous function of s with a constant label
-(σ, ε). A motion is a chain of arcs: it may go on from one to the next iff both have the same limit between them. With
-r = σ √W and δ = ε √Q these limits are compared by
-
-* ε: the same, or Q = 0 there;
-* σ: the same where W > 0; any where W = 0 and d /= 0; where W = 0 = d, on the axis of the first joint, the limits of
-  the direction of (x, y), times σ, have to agree: else the first joint would jump.
+For arms with a plane that turns (``bezier.arm.vertical``), by the theorem of the rule "joint motions":
+between neighbouring zeros of W and of N = Q(√W) Q(-√W) along a curve the solutions are
+as many arcs, and a motion goes on from an arc to another one iff both have the same limit between them.
 """
 
 from __future__ import annotations

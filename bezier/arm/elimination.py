@@ -2,10 +2,6 @@
 
 The derivation is that of the rule "joint positions" (``bezier.proofs.three_joints``), in polynomials of more variables:
 coordinates of the point, or the parameter of a curve.
-
-v and |v|² are affine in cos θ3, sin θ3 where the last joint turns: then θ3 = φ + 2 arctan t and all is multiplied by
-1 + t²; where it slides t is its length. Every real t that solves the equation gives a solution: θ2 is the angle from
-κ to u, unique unless κ = 0; θ1 the one from q to p', unique unless p' lies on axis 1.
 """
 
 from __future__ import annotations

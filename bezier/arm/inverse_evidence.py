@@ -106,13 +106,11 @@ def _arcs(choice: Choice, places: int) -> Json:
         return None
     if any(end is None for arc in choice.arcs for end in arc):
         raise Unable("certificates of joint positions are for ranges of angles")
-    return [[_of(None if end is None else end.value(places + 20), places) for end in arc] for arc in choice.arcs]
+    return [[_of(end.value(places + 20), places) for end in arc if end is not None] for arc in choice.arcs]
 
 
-def _of(value: Value | None, places: int) -> Json:
-    assert value is not None, "the joint is not free"
-    parts = [value.ends] if value.cosine is None or value.sine is None else [value.cosine, value.sine]
-    return [_around(ends, places) for ends in parts]
+def _of(value: Value, places: int) -> Json:
+    return [_around(ball.ends, places) for ball in value.pair or (value.ball,)]
 
 
 def _around(ends: tuple[Fraction, Fraction], places: int) -> Json:

@@ -1,18 +1,8 @@
-"""Arms whose second and third joints move the end point in a plane parallel to the first axis, about which it turns.
+"""Arms whose second and third joints move the end point in a plane parallel to the first axis, about which it turns:
+elbow arms and cylindrical ones, with or without an offset.
 
-So are elbow arms and cylindrical ones, with or without an offset. In the frame of the first joint let h be the unit
-normal of that plane, e = h x z: the end point is r e + d h + z e_z with d constant. The point p' = (x, y, z) is reached
-iff r² = W = x² + y² - d² and the plane arm reaches (r, z). That is so iff Q(r, z) >= 0, and its joints are continuous
-functions of r, z and δ with δ² = Q, one position for each sign of δ:
-
-* two joints that turn, links of lengths L1, L2 from the centre (a, c): Q = 4 L1² L2² - (D - L1² - L2²)², where
-  D = (r - a)² + (z - c)²; δ is 2 L1 L2 times the sine at the elbow (where D = 0 the second joint is free);
-* one that turns and one that slides along a line at the distance b from the centre: Q = D - b² (the same at D = 0);
-* one that slides and one that turns on a radius L: Q = L² - w², w the distance from the line of the centres;
-* two that slide: one position everywhere, no Q.
-
-The first joint is the angle from r e + d h to (x, y): free where x = y = 0, else unique. So a solution is a pair of
-signs (σ, ε), r = σ √W and δ = ε √Q(r, z), and all of them are continuous in W, z and the direction of (x, y).
+With W, Q, σ and ε of the rule "joint motions" (``bezier.proofs.joint_motions``) a solution is a pair of signs (σ, ε),
+r = σ √W and δ = ε √Q(r, z); all of them are continuous in W, z and the direction of (x, y).
 """
 
 from __future__ import annotations
