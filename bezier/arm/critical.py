@@ -17,11 +17,11 @@ from functools import cached_property
 from bezier.arm.elimination import LIFTED, TURNS, Geometry, Reduction
 from bezier.arm.inverse import geometry_of
 from bezier.arm.model import Arm
-from bezier.arm.ratio import Ratio, reduced
-from bezier.curves import bernstein as bs
+from bezier.arm.ratio import Ratio, constant, reduced
 from bezier.curves.curve import Bezier
 from bezier.curves.scalar import rational
 from bezier.proofs.course import coefficients
+from bezier.proofs.square_roots import ZERO, Polynomial, Surd
 from qe.errors import InputError, Unable
 from qe.exact.algebraic import RealAlgebraic, irreducible_roots
 from qe.exact.point_values import roots_between
@@ -59,8 +59,19 @@ class AlongCurve:
     @cached_property
     def point(self) -> tuple[Ratio, ...]:
         """p(s), coordinates as polynomials of the ring ``NAMES``."""
-        s = Ratio(Ring.of(NAMES).gen(S), 1, self.arm.field)
-        return tuple(bs.power_value(row, s) for row in coefficients(self.curve.points))
+        rows = (Polynomial.of(map(Surd.rational, row)) for row in coefficients(self.curve.points))
+        return tuple(map(self._ratio, rows))
+
+    def _ratio(self, p: Polynomial) -> Ratio:
+        s, one = Ratio(Ring.of(NAMES).gen(S), 1, self.arm.field), constant(Ring.of(NAMES), 1, self.arm.field)
+        total = one.by(ZERO)
+        for c in reversed(p.coefficients):
+            total = total * s + one.by(c)
+        return total
+
+    def polynomial(self, p: Polynomial) -> Poly:
+        """A positive multiple of a polynomial in s, in w and s."""
+        return self._ratio(p).top
 
     @cached_property
     def _reductions(self) -> dict[int, Reduction]:

@@ -15,14 +15,14 @@ from bezier.arm.joint_path import JointPath, Run
 from bezier.arm.model import Arm
 from bezier.arm.motion_chain import ProvedPiece
 from bezier.arm.motion_chain import piece as proved_piece
-from bezier.arm.roots_of_squares import arm_json
+from bezier.arm.roots_of_squares import arm_json, common_factor
 from bezier.arm.vertical import SignsAlong
 from bezier.curves.curve import Bezier
 from bezier.curves.scalar import exactly
 from bezier.proofs import branch as checked
 from bezier.proofs import inverse_position, joint_motions
 from bezier.proofs.course import Course, coefficients
-from bezier.proofs.square_roots import ONE, Polynomial, Surd, divided
+from bezier.proofs.square_roots import ONE, Polynomial, Surd
 from qe.certify.verify import verify
 from qe.errors import BudgetExceeded, CertificateRejected, Unable
 from qe.expert.sentences import Sentence
@@ -149,23 +149,15 @@ def _factor(signs: SignsAlong, s: Number) -> Json:
     """A polynomial with a simple zero at s that divides W, N and A as often as they vanish there; None for N itself."""
     if isinstance(s, Fraction):
         return _written(Polynomial((Surd.rational(-s), ONE)))
-    here, quality, norm = signs.at(s), signs.signs.quality, signs.signs.norm
-    if norm is not None and not signs.vanishes(s)[0] and here.value(norm.derivative).sign():
+    sign, quality, norm = partial(signs.sign, s), signs.signs.quality, signs.signs.norm
+    if norm is not None and not signs.vanishes(s)[0] and sign(norm.derivative):
         return None
     result = Polynomial(tuple(map(Surd.rational, s.minimal_polynomial)))
     for p in (signs.signs.w, norm, None if quality is None else quality[0]):
-        while p and not here.value(p).sign():
-            result = _common_factor(result, p)
+        while p and not sign(p):
+            result = common_factor(result, p)
             p = p.derivative
     return _written(result)
-
-
-def _common_factor(a: Polynomial, b: Polynomial) -> Polynomial:
-    """The greatest common divisor, by Euclid's algorithm with leading coefficient 1."""
-    while b:
-        b = b.by(b[-1].inverse())
-        a, b = b, divided(a, b)[1]
-    return a
 
 
 def _written(p: Polynomial) -> Json:

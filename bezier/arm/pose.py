@@ -17,15 +17,15 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
-from functools import partial
-from itertools import pairwise
+from functools import partial, reduce
+from operator import mul
 from typing import Any
 
 from bezier.arm.choices import BITS, MOST_BITS, Choice, Exact, Value
 from bezier.arm.elimination import TURNS
 from bezier.arm.inverse import Inverse, Solution, check_kinematics, exact_number, listed, solution_of
 from bezier.arm.model import Arm
-from bezier.arm.roots_of_squares import roots_of, surds, zeros_among
+from bezier.arm.roots_of_squares import roots_of, surds
 from bezier.curves.scalar import rational
 from bezier.proofs import inverse_pose
 from bezier.proofs.arm_rows import ArmChain
@@ -45,8 +45,6 @@ NEEDED = (
     "a spherical wrist, or three parallel axes, alone, with a joint that slides along them, or with two neighbouring"
     " axes that meet after one before"
 )
-APPARENT = 400
-"""So many binary places show of most numbers that they are not 0."""
 
 
 def rotation_of(quaternion: Sequence[Any]) -> Rotation:
@@ -167,8 +165,9 @@ def _followed(constants: Sequence[Motion], based: Motion) -> Arcs:
     third = square(inverse_pose.elbow_wave(constants[2:4], six.middle(inverse_pose.ORIGIN, True, fifth, sixth))).terms
     p, q, m2 = (terms.get(k, Polynomial()) for terms, k in ((third, NO_ROOT), (third, key), (second.terms, NO_ROOT)))
     below = (u.parts[0] * u.parts[0] + u.parts[1] * u.parts[1]).terms.get(NO_ROOT, Polynomial())
-    marks = zeros_among(f for f in (m2, below, p * p - q * q * m2, p, q) if f)
-    samples = [rational_between(*pair) for pair in pairwise([None, *(mark.root for mark in marks), None])]
+    marks = roots_of(reduce(mul, (f for f in (m2, below, p * p - q * q * m2, p, q) if f), one))
+    below_and_above = [None, *(end for mark in marks for end in mark.between), None]
+    samples = [rational_between(*pair) for pair in zip(below_and_above[::2], below_and_above[1::2], strict=True)]
     ends = [JointValue(nested(-ONE), nested(ZERO), nested(ONE)), *(turned(mark.value) for mark in marks)]
     after = [holds(turned(partial(Polynomial.at, x=sample))) for sample in samples]
     return arcs_of(ends, list(map(holds, ends)), after)

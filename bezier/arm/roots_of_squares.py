@@ -2,28 +2,23 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
-from dataclasses import dataclass, replace
+from collections.abc import Sequence
+from dataclasses import dataclass
 from fractions import Fraction
-from functools import reduce
+from functools import lru_cache
 from itertools import pairwise
-from math import lcm
-from operator import mul
 from typing import Any
 
 from bezier.arm.model import Angle, Arm
 from bezier.curves.scalar import rational
 from bezier.proofs.nested_roots import Place
-from bezier.proofs.square_roots import ONE, Polynomial, Surd, Triple, enclosure, primes
+from bezier.proofs.square_roots import ONE, Ball, Interval, Polynomial, Surd, Triple, divided
 from qe.errors import Unable
-from qe.exact.algebraic import RealAlgebraic, irreducible_roots, real_roots
+from qe.exact.algebraic import RealAlgebraic, irreducible_roots
 from qe.exact.algebraic_text import square_part
-from qe.exact.balls import precision
-from qe.exact.ring import Ring
+from qe.exact.ball_roots import certified_roots
+from qe.exact.balls import ends, precision
 from qe.proof.entry import Json
-
-APPARENT = 400
-"""So many binary places show of most numbers that they are not 0."""
 
 
 def arm_json(arm: Arm) -> Json:
@@ -93,59 +88,43 @@ def _root(square: Fraction) -> tuple[int, Fraction]:
 # --- real roots ------------------------------------------------------------------------------------------------------
 @dataclass(frozen=True, eq=False)
 class RootPlace(Place):
-    """A real root that is known to any number of digits."""
+    """A real root that is known to any number of digits: the one with this index, of a modulus without multiple
+    roots."""
 
-    root: RealAlgebraic
+    index: int
 
-    def around(self, bits: int) -> tuple[Fraction, Fraction]:
-        return self.root.interval(bits)
+    def around(self, bits: int) -> Interval:
+        return ends(_real_roots(self.modulus, bits)[self.index])
 
 
 def roots_of(p: Polynomial) -> list[RootPlace]:
     """The real roots, ascending, of a polynomial that is not zero, in disjoint intervals whose ends are no roots."""
-    _, *others = conjugates(p)
-    if not others:
-        return zeros_among([p])
-    near = [place for place in zeros_among([p]) if _may_vanish(p, place)]
-    # one of the conjugates vanishes there: p, if no other one does
-    listed = [p_at for p_at in near if not any(_may_vanish(q, p_at) for q in others) or not p_at.value(p).sign()]
-    return [replace(place, modulus=p.by(p[-1].inverse())) for place in listed]
-
-
-def conjugates(p: Polynomial) -> list[Polynomial]:
-    """What changes of the signs of square roots make of it, itself first; their product is rational."""
-    listed = [p]
-    for prime in sorted({prime for c in p for d, _ in c.terms for prime in primes(d)}):
-        listed += [Polynomial(tuple(c.conjugate(prime) for c in q)) for q in listed]
-    return listed
-
-
-def _may_vanish(p: Polynomial, place: Place) -> bool:
-    with precision(APPARENT):
-        return bool(enclosure(p, place.around(APPARENT)).contains(0))
-
-
-def zeros_among(polynomials: Iterable[Polynomial]) -> list[RootPlace]:
-    """The real roots of polynomials and of their conjugates, likewise."""
-    ring, roots, bits = Ring.of(("t",)), set[RealAlgebraic](), 40
-    for p in polynomials:
-        norm = [c.terms[0][1] if c else Fraction(0) for c in reduce(mul, conjugates(p))]
-        below = lcm(*(c.denominator for c in norm))
-        whole = ring.from_terms({(k,): int(c * below) for k, c in enumerate(norm) if c})
-        roots |= {*real_roots(whole.to_univariate(0))}
-    ordered = sorted(roots)
+    simple = divided(p, common_factor(p, p.derivative))[0] if len(p) > 1 else Polynomial((ONE,))
+    modulus, bits = simple.by(simple[-1].inverse()), 40
     while True:
-        ends = [_around(root, bits) for root in ordered]
-        if all(a[1] < b[0] for a, b in pairwise(ends)):
-            return list(map(_place, ordered, ends))
+        spare = Fraction(1, 1 << bits)
+        around = [(low - spare, high + spare) for low, high in map(ends, _real_roots(modulus, bits))]
+        if all(a[1] < b[0] for a, b in pairwise(around)):
+            return [RootPlace(modulus, between, k) for k, between in enumerate(around)]
         bits *= 2
 
 
-def _around(root: RealAlgebraic, bits: int) -> tuple[Fraction, Fraction]:
-    low, high = root.interval(bits)
-    return (low - Fraction(1, 1 << bits), high + Fraction(1, 1 << bits)) if root.is_rational else (low, high)
+@lru_cache(maxsize=256)
+def _real_roots(p: Polynomial, bits: int) -> list[Ball]:
+    """Balls at most 2^-bits wide around the real roots of a polynomial without multiple ones."""
+    working = 2 * bits
+    while len(p) > 1:
+        with precision(working):
+            balls = certified_roots([c.ball() for c in p], working)
+            if balls is not None and all(2 * x.rad() < Ball(2) ** -bits for x in balls):
+                return balls
+        working *= 2
+    return []
 
 
-def _place(root: RealAlgebraic, between: tuple[Fraction, Fraction]) -> RootPlace:
-    *rest, lead = root.minimal_polynomial
-    return RootPlace(Polynomial((*(Surd.rational(Fraction(c, lead)) for c in rest), ONE)), between, root)
+def common_factor(a: Polynomial, b: Polynomial) -> Polynomial:
+    """The greatest common divisor, by Euclid's algorithm with leading coefficient 1."""
+    while b:
+        b = b.by(b[-1].inverse())
+        a, b = b, divided(a, b)[1]
+    return a

@@ -8,15 +8,14 @@ r = σ √W and δ = ε √Q(r, z); all of them are continuous in W, z and the d
 from __future__ import annotations
 
 from dataclasses import dataclass
-from functools import cached_property, lru_cache
+from functools import cached_property, lru_cache, partial
 
 from bezier.arm.choices import AtPlace, Exact
-from bezier.arm.critical import Number
+from bezier.arm.critical import AlongCurve, Number
 from bezier.arm.elimination import Geometry
 from bezier.arm.inverse import Solution, geometry_of
 from bezier.arm.model import Arm
 from bezier.arm.ratio import variable
-from bezier.arm.roots_of_squares import RootPlace, roots_of
 from bezier.curves.curve import Bezier
 from bezier.proofs.course import coefficients, seen_from_base
 from bezier.proofs.joint_motions import Along, Between, Label, Plane
@@ -80,6 +79,7 @@ class SignsAlong:
     arm: VerticalArm
     curve: Bezier
     signs: Along
+    along: AlongCurve
 
     @staticmethod
     def of(arm: VerticalArm, curve: Bezier) -> SignsAlong:
@@ -92,21 +92,23 @@ class SignsAlong:
         except Unable:
             where = "on the axis of the first joint, or along a border of what is reached"
             raise Unable(f"the whole curve is {where}") from None
-        return SignsAlong(arm, curve, along)
+        return SignsAlong(arm, curve, along, AlongCurve(arm.geometry.arm, curve))
 
     @cached_property
-    def _zeros(self) -> tuple[dict[Number, RootPlace], dict[Number, RootPlace]]:
+    def _zeros(self) -> tuple[frozenset[Number], frozenset[Number]]:
         """Of W and of N, in [0, 1]."""
-        return _zeros(self.signs.w), _zeros(self.signs.norm or Polynomial())
+        listed = self.signs.w, self.signs.norm or Polynomial()
+        w, norm = (frozenset(self.along.zeros(self.along.polynomial(p)) if p else ()) for p in listed)
+        return w, norm
 
     @property
     def places(self) -> list[Number]:
         """Where W or Q vanishes, in [0, 1]."""
-        return sorted(self._zeros[0].keys() | self._zeros[1].keys())
+        return sorted(self._zeros[0] | self._zeros[1])
 
-    def at(self, s: Number) -> RootPlace:
-        """One of these."""
-        return self._zeros[0].get(s) or self._zeros[1][s]
+    def sign(self, s: Number, p: Polynomial) -> int:
+        """Of a polynomial at a parameter."""
+        return self.along.place(s).sign(self.along.polynomial(p))
 
     def vanishes(self, s: Number) -> tuple[bool, bool]:
         """Whether W and N do."""
@@ -114,15 +116,10 @@ class SignsAlong:
 
     def between(self, s: Number) -> Between:
         """What holds there. Raises ``Unable`` if the second joint is free."""
-        has_no_square, here, order, w = self.vanishes(s)[0], self.at(s), 0, self.signs.w
-        while has_no_square and not here.value(w).sign():
+        has_no_square, sign, order, w = self.vanishes(s)[0], partial(self.sign, s), 0, self.signs.w
+        while has_no_square and not sign(w):
             order, w = order + 1, w.derivative
-        empty = self.signs.empty(lambda p: here.value(p).sign())
+        empty = self.signs.empty(sign)
         if empty is None:
             raise Unable(f"at s = {float(s):.9g} the second joint is free: which motions go on is not decided")
         return Between(has_no_square, empty, (-1) ** (order // 2))
-
-
-def _zeros(p: Polynomial) -> dict[Number, RootPlace]:
-    places = [place for place in (roots_of(p) if p else []) if 0 <= place.root <= 1]
-    return {p.root.as_fraction() if p.root.is_rational else p.root: p for p in places}
