@@ -100,7 +100,7 @@ class Geometry:
         both = Equations.of(turns, self.chain.constants[1], target, self.f, factors)
         equation, degree, square, parts, slide = both.reduced()
         if square is not None:  # m stands for a multiple, whose square has integer coefficients
-            m, square = m * square.scale, Ratio(square.top * square.bottom, 1, field)
+            m, square = Ratio(m.top, square.bottom, field), Ratio(square.top * square.bottom, 1, field)
         joints, shift = both.joints(parts, slide, m, lambda number: number), self.chain.constants[1][1]
         axis = target[0] * target[0] + target[1] * target[1]
         shoulder = (axis - one.by(dot(shift[:2], shift[:2])), target[2] - one.by(shift[2])) if all(turns[:2]) else ()

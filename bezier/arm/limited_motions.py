@@ -16,7 +16,7 @@ from dataclasses import dataclass
 from fractions import Fraction
 from math import tau
 
-from bezier.arm.choices import Exact, full_turns, side
+from bezier.arm.choices import Edge, Exact, full_turns, side
 from bezier.arm.continuous import ContinuousMotion, ContinuousMotions
 from bezier.arm.follow import Branch
 from bezier.arm.inverse import Solution, solve
@@ -92,10 +92,8 @@ def _broken_at(
     for joint, exact, value, close, more in zip(arm.joints, solution.exact, solution.values, near, turns, strict=True):
         assert exact is not None and value is not None, "a branch determines every joint"
         around = more if value.pair is None else round((close - float(value)) / tau) + more
-        for limit, wanted in zip(joint.limits or (), (1, -1), strict=False):
-            slides = joint.motion is JointKind.PRISMATIC
-            here = exact.length_side(limit) if slides else side(exact, around, limit)
-            if here == -wanted:
+        for limit, wrong in zip(joint.limits or (), (-1, 1), strict=False):
+            if Edge(exact, around).side(limit, joint.motion, 0) == wrong:
                 yield joint, limit
 
 

@@ -43,6 +43,11 @@ class Angle:
     cosine: Fraction = Fraction(1)
     sine: Fraction = Fraction(0)
 
+    @staticmethod
+    def of(twelfths: int) -> Angle:
+        """So many twelfths of pi."""
+        return Angle((twelfths + STEP - 1) % (2 * STEP) - STEP + 1)
+
     def __float__(self) -> float:
         """In radians, in (-pi, pi]."""
         if self.twelfths is not None:
@@ -79,7 +84,7 @@ def read_angle(raw: object) -> Angle:
         factor = parse(match[2] or "1") / int(match[3] or 1)
         steps = (-factor if match[1] == "-" else factor) * STEP
         if steps.denominator == 1:
-            return Angle((int(steps) + STEP - 1) % (2 * STEP) - STEP + 1)
+            return Angle.of(int(steps))
         raise NotANumber(f'"{raw}"')
     if read(raw) == 0:
         return Angle()

@@ -19,57 +19,32 @@ from qe.exact.ring import Poly, Ring
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Ratio:
-    """``top / bottom`` with bottom > 0. Mixed arithmetic with rational numbers and field elements is exact."""
+    """``top / bottom`` with bottom > 0."""
 
     top: Poly
     bottom: int
     field: NumberField
 
-    def _coerce(self, other: Any) -> Ratio:
-        return other if isinstance(other, Ratio) else constant(self.top.ring, other, self.field)
-
-    def __add__(self, other: Any) -> Ratio:
-        second = self._coerce(other)
-        common = lcm(self.bottom, second.bottom)
-        top = self.top * (common // self.bottom) + second.top * (common // second.bottom)
+    def __add__(self, other: Ratio) -> Ratio:
+        common = lcm(self.bottom, other.bottom)
+        top = self.top * (common // self.bottom) + other.top * (common // other.bottom)
         return Ratio(top, common, self.field)
-
-    __radd__ = __add__
 
     def __neg__(self) -> Ratio:
         return Ratio(-self.top, self.bottom, self.field)
 
-    def __sub__(self, other: Any) -> Ratio:
-        negated: Ratio = -self._coerce(other)
-        return self + negated
+    def __sub__(self, other: Ratio) -> Ratio:
+        return self + -other
 
-    def __rsub__(self, other: Any) -> Ratio:
-        result: Ratio = -self + other
-        return result
-
-    def __mul__(self, other: Any) -> Ratio:
-        if isinstance(other, int | Fraction):
-            number = Fraction(other)
-            return Ratio(self.top * number.numerator, self.bottom * number.denominator, self.field)
-        second = self._coerce(other)
-        return Ratio(reduced(self.top * second.top, self.field), self.bottom * second.bottom, self.field)
-
-    __rmul__ = __mul__
-
-    def __truediv__(self, other: Any) -> Ratio:
-        """By a nonzero number."""
-        result: Ratio = self * (1 / (Fraction(other) if isinstance(other, int) else other))
-        return result
+    def __mul__(self, other: Ratio) -> Ratio:
+        return Ratio(reduced(self.top * other.top, self.field), self.bottom * other.bottom, self.field)
 
     def by(self, c: Surd) -> Ratio:
         """Times a number of the field."""
-        result: Ratio = self * in_field(c, self.field)
-        return result
-
-    @property
-    def scale(self) -> Fraction:
-        """1 / bottom."""
-        return Fraction(1, self.bottom)
+        value = in_field(c, self.field)
+        if isinstance(value, Fraction):
+            return Ratio(self.top * value.numerator, self.bottom * value.denominator, self.field)
+        return self * constant(self.top.ring, value, self.field)
 
 
 def constant(ring: Ring, value: Any, field: NumberField) -> Ratio:

@@ -127,7 +127,7 @@ def question(arm: Arm) -> Formula:
     ring = Ring.of(("w", *PLACE, *names))
     conditions = [*_generator(arm, ring)]
     zero = constant(ring, 0, arm.field)
-    base, *links = arm.chain.in_numbers(lambda c: zero + in_field(c, arm.field))
+    base, *links = arm.chain.in_numbers(lambda c: constant(ring, in_field(c, arm.field), arm.field))
     values = [[variable(ring, name, arm.field) for name in _names(k, joints[k])] for k in range(1, len(joints))]
     for joint, value in zip(joints[1:], values, strict=True):
         conditions += _within(joint, value)
@@ -151,10 +151,10 @@ def _within(joint: Joint, values: list[Ratio]) -> Iterator[Formula]:
     """What the values of a joint satisfy; a ``Ratio`` has a positive denominator."""
     if joint.motion is JointKind.REVOLUTE:
         c, s = values
-        yield atom((c * c + s * s - 1).top, Relation.EQ)
+        yield atom((c * c + s * s - constant(c.top.ring, 1, c.field)).top, Relation.EQ)
     elif joint.limits is not None:
-        yield atom((values[0] - joint.limits[0]).top, Relation.GE)
-        yield atom((values[0] - joint.limits[1]).top, Relation.LE)
+        low, high = (values[0] - constant(values[0].top.ring, limit, values[0].field) for limit in joint.limits)
+        yield from (atom(low.top, Relation.GE), atom(high.top, Relation.LE))
 
 
 def _generator(arm: Arm, ring: Ring) -> Iterator[Formula]:

@@ -114,19 +114,15 @@ def _rows(file: str, joint: Any) -> Iterator[Row]:
     none = Fraction(0)
     rows = [
         Row(x, Angle(), z, Angle(QUARTER), is_within=bool(y)),
-        Row(y, Angle(), none, _angle(yaw)),
-        Row(none, _angle(pitch), none, _angle(-QUARTER)),
-        Row(none, _angle(roll + tilt), none, _angle(QUARTER if about else 0), None if about else moving),
+        Row(y, Angle(), none, Angle.of(yaw)),
+        Row(none, Angle.of(pitch), none, Angle.of(-QUARTER)),
+        Row(none, Angle.of(roll + tilt), none, Angle.of(QUARTER if about else 0), None if about else moving),
     ]
     if about:
-        rows.append(Row(none, _angle(about), none, Angle(), moving))
+        rows.append(Row(none, Angle.of(about), none, Angle(), moving))
     if tilt or about:
-        rows.append(Row(none, _angle(-tilt - about), none, _angle(-QUARTER if about else 0)))
+        rows.append(Row(none, Angle.of(-tilt - about), none, Angle.of(-QUARTER if about else 0)))
     yield from rows
-
-
-def _angle(twelfths: int) -> Angle:
-    return Angle((twelfths + STEP - 1) % (2 * STEP) - STEP + 1)
 
 
 def _tilt(axis: Any, where: str) -> tuple[int, int]:
