@@ -12,10 +12,10 @@ from bisect import bisect_left
 from collections.abc import Sequence
 from dataclasses import dataclass
 from fractions import Fraction
+from math import tau
 from operator import attrgetter
 
 from bezier.arm.inverse import Solution
-from bezier.arm.kinematics import wrapped
 from bezier.arm.model import Arm
 from bezier.arm.motion_chain import ProvedPiece
 from bezier.arm.motion_chain import piece as proved_piece
@@ -34,9 +34,7 @@ ZERO, ONE = Fraction(0), Fraction(1)
 SPARE = Fraction(5, 4)
 """What links leave to a checker that computes with other roundings."""
 
-ROUNDING = 1e-12
-"""Much more than what sums of a few numbers lose in floating point, relative to their sizes."""
-
+PI = pi_ends(96)
 Box = tuple[tuple[Fraction, Fraction], ...]
 
 
@@ -66,20 +64,11 @@ class Branch:
 
     def contains(self, s: Fraction, solution: Solution) -> bool:
         """Whether the branch takes this solution at s, exactly: its only solution in the box there is this one."""
-        if not self.low <= s <= self.high:
+        if not self.low <= s <= self.high or None in solution.values:
             return False
-        piece, is_close = self.piece(s), False
-        near = piece.near(s)
-        for k, (value, other, size) in enumerate(zip(solution.values, near, piece.radius, strict=True)):
-            if value is None:
-                return False
-            gap = float(value) - other
-            gap = abs(gap if value.pair is None else wrapped(gap))
-            lost = ROUNDING * (1 + abs(piece.centre[k]) + abs(piece.slope[k]) + abs(float(value)))
-            if gap > size + lost:
-                return False
-            is_close = is_close or gap > size - lost
-        return not is_close or _inside(_turned(solution, near), piece, s)
+        piece = self.piece(s)
+        sides = zip(_turned(solution, piece.near(s)), piece.at(s), map(Fraction, piece.radius), strict=True)
+        return all(m - r <= low and high <= m + r for (low, high), m, r in sides)
 
 
 def follow(
@@ -152,20 +141,12 @@ def _same(one: ProvedPiece, s: Fraction, other: ProvedPiece, t: Fraction) -> boo
     )
 
 
-def _inside(box: Box, piece: ProvedPiece, s: Fraction) -> bool:
-    middle = piece.at(s)
-    return all(
-        m - Fraction(r) <= low and high <= m + Fraction(r)
-        for (low, high), m, r in zip(box, middle, piece.radius, strict=True)
-    )
-
-
 def _turned(solution: Solution, near: Sequence[float]) -> Box:
     """The box of the solution, by full turns next to these joint values."""
     result = []
     for value, other in zip(solution.values, near, strict=True):
         assert value is not None, "a branch is followed where no angle is free"
-        turns = 0 if value.pair is None else round((other - float(value)) / 6.283185307179586)
-        low, high = pi_ends(96) if turns >= 0 else pi_ends(96)[::-1]
+        turns = 0 if value.pair is None else round((other - float(value)) / tau)
+        low, high = PI if turns >= 0 else PI[::-1]
         result.append((value.ends[0] + 2 * turns * low, value.ends[1] + 2 * turns * high))
     return tuple(result)
