@@ -37,15 +37,18 @@ class JointMotion:
     accelerations: tuple[Enclosure, ...]
 
     @property
-    def kept(self) -> dict[str, bool | None]:
-        """For each limit, by joint and kind, whether it is kept at all times."""
-        result = {}
+    def _limits(self) -> Iterator[tuple[str, Enclosure, Fraction]]:
+        """Names, extremes and limits, velocities before accelerations for each joint."""
         for joint, v, a in zip(self.joints, self.speeds, self.accelerations, strict=True):
             if joint.max_velocity is not None:
-                result[f"{joint.name} velocity"] = v.keeps(joint.max_velocity)
+                yield f"{joint.name} velocity", v, joint.max_velocity
             if joint.max_acceleration is not None:
-                result[f"{joint.name} acceleration"] = a.keeps(joint.max_acceleration)
-        return result
+                yield f"{joint.name} acceleration", a, joint.max_acceleration
+
+    @property
+    def kept(self) -> dict[str, bool | None]:
+        """For each limit, by joint and kind, whether it is kept at all times."""
+        return {name: extreme.keeps(limit) for name, extreme, limit in self._limits}
 
     @property
     def keeps_limits(self) -> bool:
@@ -56,12 +59,10 @@ class JointMotion:
     def enough(self) -> Fraction:
         """A duration (s) with which the same motion is proved to keep all limits, rounded up to ``TICK``."""
         factors = [Fraction(0)]
-        for joint, v, a in zip(self.joints, self.speeds, self.accelerations, strict=True):
-            if joint.max_velocity is not None:
-                factors.append(v.finite[1] / joint.max_velocity)
-            if joint.max_acceleration is not None:
-                ratio = a.finite[1] / joint.max_acceleration
-                factors.append(Fraction(isqrt(ceil(ratio * 10**12)) + 1, 10**6))
+        for name, extreme, limit in self._limits:
+            ratio = extreme.finite[1] / limit
+            is_speed = name.endswith(" velocity")
+            factors.append(ratio if is_speed else Fraction(isqrt(ceil(ratio * 10**12)) + 1, 10**6))
         return ceil(self.duration * max(factors) / TICK) * TICK
 
 

@@ -13,7 +13,6 @@ from dataclasses import dataclass
 from fractions import Fraction
 from itertools import pairwise
 from math import tau
-from typing import Any
 
 from bezier.arm.choices import spans
 from bezier.arm.follow import Branch
@@ -23,7 +22,6 @@ from bezier.arm.kinematics import wrapped
 from bezier.arm.model import Arm, JointKind
 from bezier.motion.timelaw import TimeLaw
 from qe.errors import InputError, Unable
-from qe.extras import wanted
 
 MOST_SAMPLES = 5_000
 UNIT = 1 << 32
@@ -97,20 +95,14 @@ def joint_sequence(joint_path_: JointPath, samples: Sequence[Sample]) -> JointSe
     """The sequence of least total change. Raises ``Unable`` where a sample has no joint position within the limits."""
     arm = joint_path_.arm
     layers = list(_layers(joint_path_, samples))
-    with wanted():  # loading it takes longer than planning a path without an arm
-        import networkx as nx
-
-    graph: nx.DiGraph[Any] = nx.DiGraph()
-    graph.add_edges_from((("start", (0, i)) for i in range(len(layers[0]))), weight=0.0)
-    for k, (near, far) in enumerate(pairwise(layers)):
-        graph.add_weighted_edges_from(
-            ((k, i), (k + 1, j), _distance(arm, a.angles, b.angles))
-            for i, a in enumerate(near)
-            for j, b in enumerate(far)
-        )
-    graph.add_edges_from((((len(layers) - 1, i), "goal") for i in range(len(layers[-1]))), weight=0.0)
-    path: Any = nx.dijkstra_path(graph, "start", "goal")
-    stands = [layers[k][i] for k, i in path[1:-1]]
+    costs, links = [0.0] * len(layers[0]), list[list[int]]()
+    for near, far in pairwise(layers):
+        ways = [[cost + _distance(arm, a.angles, b.angles) for cost, a in zip(costs, near, strict=True)] for b in far]
+        costs = list(map(min, ways))
+        links.append([way.index(cost) for way, cost in zip(ways, costs, strict=True)])
+    k = costs.index(min(costs))
+    numbers = [k, *(k := link[k] for link in reversed(links))]
+    stands = [layer[i] for layer, i in zip(layers, reversed(numbers), strict=True)]
     change = sum(_distance(arm, a.angles, b.angles) for a, b in pairwise(stands))
     run, switches = _kept(arm, stands, samples)
     begin = _between_limits(joint_path_, stands[0], samples[0], run)

@@ -38,7 +38,7 @@ from bezier.proofs.arm_sentences import ALONG, ArmEquations, between, ring_of, w
 from bezier.proofs.branch import read_curve
 from bezier.proofs.course import coefficients, seen_from_base
 from bezier.proofs.nested_roots import NO_ROOT, Nested, Root, nested
-from bezier.proofs.square_roots import ONE, ZERO, Polynomial, Surd, Triple, constant_sign, dot
+from bezier.proofs.square_roots import ONE, ZERO, Polynomial, Surd, Triple, constant_sign, cross, dot
 from qe.errors import Unable
 from qe.expert.sentences import Sentence, stated
 from qe.formula.build import conj, disj, forall, implies
@@ -95,7 +95,7 @@ class Plane:
                 size, may_fold = lever * lever, not lever
         else:
             base = centre = tuple(x + dot(row, reach) for x, row in zip(o, first, strict=True))
-            normal = outer if chain.turns[2] else _cross(axis, outer)
+            normal = outer if chain.turns[2] else cross(axis, outer)
             is_plane = not dot(normal, axis) and (bool(radius) or not chain.turns[2])
             size = radius
         if not is_plane or normal[2] or dot(normal, normal) != ONE:
@@ -362,10 +362,6 @@ def norm_of(a: Split, w: Polynomial) -> Polynomial:
 
 def _column(rows: Sequence[Triple]) -> Triple:
     return tuple(row[2] for row in rows)
-
-
-def _cross(a: Triple, b: Triple) -> Triple:
-    return (a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0])
 
 
 RULE = stated(check_motions)

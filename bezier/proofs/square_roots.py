@@ -321,12 +321,16 @@ def back(motion: Motion) -> Motion:
     return (a, b, c), tuple(-dot(row, shift) for row in (a, b, c))
 
 
+def cross(a: Triple, b: Triple) -> Triple:
+    """The vector product."""
+    return (a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0])
+
+
 def is_motion(motion: Motion) -> bool:
     """Whether the rows are orthogonal, of length 1 and of determinant 1."""
     a, b, c = motion[0]
-    across = (a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0])
     pairs = [(a, a, ONE), (b, b, ONE), (a, b, ZERO)]
-    return across == c and all(dot(x, y) == value for x, y, value in pairs)
+    return cross(a, b) == c and all(dot(x, y) == value for x, y, value in pairs)
 
 
 BITS = (512, 2048)
