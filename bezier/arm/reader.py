@@ -1,32 +1,16 @@
-"""Arms from TOML: ``name``, ``convention``, ``[[row]]`` tables; and the arms that are shipped.
-
-name = "EV3"
-convention = "modified"          # or "standard"
-[[row]]
-joint = "theta1"                 # a moving row; "kind" is "revolute" unless it says "prismatic"
-a = 0                            # mm; so is d
-alpha = "pi/2"                   # a multiple of pi/12
-limits = ["-3", "3"]             # rad or mm
-
-Paths for arms from files: ``[[curve]]`` tables of a TOML file, or the folder of a plan.
-
-[[curve]]
-points = [[10, 40, 80], [40, 100, 20]]      # control points in mm: two make a line
-name = "first"                              # optional
-spline = true                               # points to pass through instead: a natural cubic spline, one curve per span
-"""
+"""Arms from TOML (``name``, ``convention``, ``[[row]]`` tables), the arms that are shipped, and paths for arms
+(``[[curve]]`` tables of control points in mm, or of points that a natural cubic spline passes through)."""
 
 from __future__ import annotations
 
-import ast
-import operator
-from collections.abc import Callable, Sequence
+import re
+from collections.abc import Sequence
 from fractions import Fraction
 from functools import cache
 from importlib.resources import files
 from pathlib import Path
-from typing import Any
 
+import qe
 from bezier.arm.choices import MOST_RADIANS
 from bezier.arm.model import EXPECTED, Angle, Arm, Convention, Joint, JointKind, Row, read_angle
 from bezier.curves.curve import Bezier
@@ -197,12 +181,7 @@ Exact = Fraction | RealAlgebraic
 
 EXACT = 'an exact number such as 3/4, 0.75 or "44*sqrt(2) + 120"'
 MOST_ROOTS = 4
-_BINARY: dict[type[ast.operator], Callable[[Any, Any], Any]] = {
-    ast.Add: operator.add,
-    ast.Sub: operator.sub,
-    ast.Mult: operator.mul,
-    ast.Div: operator.truediv,
-}
+_NUMBER = r"(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?"
 
 
 def read_exact(text: str) -> Exact:
@@ -216,39 +195,14 @@ def read_exact(text: str) -> Exact:
     refused = InputError(f'expected {EXACT}, found "{shorten(text)}"')
     if text.count("sqrt") > MOST_ROOTS:
         raise InputError(f"expected at most {MOST_ROOTS} square roots in a number, found {text.count('sqrt')}")
+    if "**" in text or not re.fullmatch(rf"(?:sqrt\(|{_NUMBER}|[\s()+*/-])*", text):
+        raise refused
     try:
-        tree = ast.parse(text.strip(), mode="eval")
-    except (SyntaxError, ValueError, RecursionError, MemoryError):
+        for number in re.findall(_NUMBER, text):
+            parse(number)
+        result = qe.find_instance(f"x = {text}")
+    except (NotANumber, InputError):
         raise refused from None
-    value = _value(tree.body, text.strip(), refused)
-    return value.as_fraction() if isinstance(value, RealAlgebraic) and value.is_rational else value
-
-
-def _value(node: ast.expr, text: str, refused: InputError) -> Any:
-    match node:
-        case ast.Constant(value=int() | float()) if not isinstance(node.value, bool):
-            try:
-                return parse(ast.get_source_segment(text, node) or "")  # the digits as written, never a float
-            except NotANumber:
-                raise refused from None
-        case ast.UnaryOp(op=ast.USub() | ast.UAdd() as sign, operand=inner):
-            value = _value(inner, text, refused)
-            return -value if isinstance(sign, ast.USub) else value
-        case ast.BinOp(left=left, op=op, right=right) if type(op) in _BINARY:
-            a, b = _value(left, text, refused), _value(right, text, refused)
-            if isinstance(op, ast.Div) and b == 0:
-                raise InputError(f'expected {EXACT}, found "{shorten(text)}", which divides by zero')
-            return _BINARY[type(op)](a, b)
-        case ast.Call(func=ast.Name(id="sqrt"), args=[inner], keywords=[]):
-            return _root(_value(inner, text, refused), text)
-    raise refused
-
-
-def _root(value: Any, text: str) -> RealAlgebraic:
-    if isinstance(value, RealAlgebraic) and value.is_rational:
-        value = value.as_fraction()
-    if not isinstance(value, Fraction):
-        raise InputError(f'expected square roots of rational numbers, found "{shorten(text)}"')
-    if value < 0:
-        raise InputError(f'expected {EXACT}, found "{shorten(text)}", with the root of a negative number')
-    return RealAlgebraic.from_root([-value.numerator, 0, value.denominator], 0, value + 1)
+    if result is None:
+        raise InputError(f"{refused}, which divides by zero or has the root of a negative number")
+    return result["x"]
