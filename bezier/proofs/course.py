@@ -61,14 +61,11 @@ class Lines:
 
 
 def coefficients(points: Sequence[Sequence[Any]]) -> list[list[Fraction]]:
-    """Of the coordinates of a curve, as polynomials in its parameter."""
-    return [powers([Fraction(p[i]) for p in points]) for i in range(3)]
-
-
-def powers(values: list[Fraction]) -> list[Fraction]:
-    """Coefficients of 1, s, s², … from Bernstein coefficients: c_k = C(n,k) Σ_j (-1)^(k-j) C(k,j) b_j."""
-    n = len(values) - 1
-    return [comb(n, k) * sum((-1) ** (k - j) * comb(k, j) * values[j] for j in range(k + 1)) for k in range(n + 1)]
+    """Of the coordinates of a curve as polynomials in its parameter: c_k = C(n,k) Σ_j (-1)^(k-j) C(k,j) b_j for control
+    points b."""
+    n = len(points) - 1
+    signed = [[(-1) ** (k - j) * comb(k, j) * comb(n, k) for j in range(k + 1)] for k in range(n + 1)]
+    return [[sum((w * Fraction(p[i]) for w, p in zip(row, points)), Fraction(0)) for row in signed] for i in range(3)]
 
 
 def seen_from_base(chain: ArmChain, curve: Sequence[Sequence[Fraction]]) -> list[Polynomial]:

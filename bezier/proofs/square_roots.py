@@ -16,7 +16,7 @@ from functools import reduce
 from itertools import pairwise, zip_longest
 from math import gcd, isqrt
 from operator import add, mul
-from typing import Any, Protocol, TypeVar
+from typing import Any
 
 from flint import arb, arb_poly, fmpq
 
@@ -241,24 +241,12 @@ Motion = tuple[tuple[Triple, Triple, Triple], Triple]
 STILL: Motion = (((ONE, ZERO, ZERO), (ZERO, ONE, ZERO), (ZERO, ZERO, ONE)), (ZERO, ZERO, ZERO))
 
 
-class Added(Protocol):
-    """What can be added and multiplied, and multiplied by a number."""
-
-    def __add__(self: T, other: T, /) -> T: ...
-    def __mul__(self: T, other: T, /) -> T: ...
-    def by(self: T, c: Surd, /) -> T: ...
+def dot(a: Sequence[Any], b: Sequence[Any]) -> Any:
+    """The scalar product, in numbers of any kind."""
+    return reduce(add, map(mul, a, b))
 
 
-T = TypeVar("T", bound=Added)
-
-
-def dot(a: Sequence[T], b: Sequence[T]) -> T:
-    """The scalar product."""
-    result: T = reduce(add, map(mul, a, b))
-    return result
-
-
-def combined(row: Sequence[Surd], parts: Sequence[T]) -> T:
+def combined(row: Sequence[Surd], parts: Sequence[Any]) -> Any:
     """The sum of the parts, times the numbers of a row."""
     return reduce(add, (part.by(c) for c, part in zip(row, parts, strict=True)))
 

@@ -7,7 +7,7 @@ import pytest
 from tests.architecture.test_rows import MODULES, imports
 
 FILES = dict(MODULES)
-MOST = {"qe.kernel": 4_850, "qe.expert": 2_370, "qe.certify": 400, "bezier.proofs": 2_940}
+MOST = {"qe.kernel": 4_850, "qe.expert": 2_370, "qe.certify": 400, "bezier.proofs": 2_890}
 """Lines of the files of each ring; lowered whenever a ring becomes smaller."""
 MOST_IMPORTED = 2_900
 """Lines of all other files that the kernel imports, directly or not: the ring of polynomials, formulas, entries."""

@@ -188,7 +188,7 @@ def test_every_logged_query(name: str, shared: Path) -> None:
         assert solve(arm, [Fraction(row[c]) for c in "xyz"]).count == row["real_solutions"], row["id"]
 
 
-@each("sqrt(-1)", "sqrt(2", "x", "sqrt", "x*sqrt(2)", "1e999999*sqrt(2)", "1/(sqrt(4)-2)", "sqrt(2)**2", "__import__('os')", "sqrt(2)" * 9)
+@each("sqrt(-1)", "sqrt(2", "x", "sqrt", "x*sqrt(2)", "1/(sqrt(4)-2)", "sqrt(2)**2", "__import__('os')", "sqrt(2)" * 9)
 def test_no_exact_number(text: str) -> None:
     with pytest.raises(InputError):
         read_exact(text)
