@@ -80,7 +80,7 @@ def solve_pose(arm: Arm, point: Sequence[Any], rotation: Sequence[Sequence[Any]]
     numbers = tuple(exact_number(v, "point") for v in point)
     rows = tuple(tuple(exact_number(v, "rotation") for v in row) for row in rotation)
     chain, pose = arm.chain, motion_of(numbers, rows)
-    is_wrist = centre(chain) is not None
+    is_wrist = inverse_pose.centre(chain) is not None
     if not is_motion(pose):
         raise InputError("rotation: a matrix with orthogonal columns of length 1 and determinant 1 expected")
     try:
