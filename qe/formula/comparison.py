@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Sequence
 from math import gcd, prod
 from typing import NamedTuple
@@ -34,7 +35,7 @@ class Range(NamedTuple):
     def written(self, notation: Notation, level: Level = Level.OPEN, last: bool = True) -> str:
         """As formulas are."""
         notation = with_forms(self.forms, notation)
-        middle = f"{notation.relation(self.above)} {polynomial(self.term, notation)} {notation.relation(self.under)}"
+        middle = f"{notation.relation(self.above)} {_sum(self.term, notation)} {notation.relation(self.under)}"
         return f"{end_text(*self.low, notation)} {middle} {end_text(*self.high, notation)}"
 
 
@@ -147,7 +148,13 @@ def written(poly: Poly, relation: Relation, notation: Notation) -> str:
 
 def _by_sides(poly: Poly, relation: Relation, notation: Notation) -> str:
     left, between, right, divisor = sides(poly, relation)
-    return f"{polynomial(left, notation)} {notation.relation(between)} {end_text(right, divisor, notation)}"
+    return f"{_sum(left, notation)} {notation.relation(between)} {end_text(right, divisor, notation)}"
+
+
+def _sum(parts: list[Monomial], notation: Notation) -> str:
+    """The sum, without the brackets around a linear form that is added."""
+    before, after = map(re.escape, notation.brackets)
+    return re.sub(rf"\+ {before}([^()-][^()]*){after}(?= |$)", r"+ \1", polynomial(parts, notation))
 
 
 def _product(one: Poly, factors: Sequence[tuple[Poly, int]], notation: Notation) -> str:

@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 import json
+import re
 from fractions import Fraction
 from itertools import islice
+from random import Random
 
 import pytest
 import sympy
@@ -21,6 +23,7 @@ from qe.io import formats, qepcad, redlog, smtlib, text
 from qe.io import json as json_format
 from qe.io.latex_lexer import is_latex
 from qe.io.sympy import Exists, ForAll, from_sympy, to_sympy
+from qe.io.text import read
 from tests import fuzz
 from tests.strategies import formulas, points
 from tests.universe import UNIVERSE, holds, same
@@ -68,6 +71,26 @@ def test_damaged_text(name: str, formula: Formula, data: st.DataObject) -> None:
     start = data.draw(st.integers(0, len(text)))
     stop = data.draw(st.integers(start, min(len(text), start + 6)))
     check(text[:start] + data.draw(st.sampled_from(("", " ", "(", ")", "x", "0", "=", "-"))) + text[stop:], name)
+
+
+@pytest.mark.parametrize("seed", range(40))
+def test_products_without_signs_are_read_as_with_them(seed: int) -> None:
+    """At random: the signs of products left out between letters that are all names, at all levels of quantifiers."""
+    rng = Random(seed)
+
+    def monomial() -> str:
+        powers = rng.sample("abcxy", rng.randint(1, 3))
+        return "*".join((str(rng.randint(2, 9)), *powers[:-1], f"{powers[-1]}{rng.choice(('', '^2', '^3'))}"))
+
+    def side() -> str:
+        return rng.choice((" + ", " - ")).join(monomial() for _ in range(rng.randint(1, 3)))
+
+    parts = [f"{side()} {rng.choice(('<', '<=', '=', '/='))} {side()}" for _ in range(rng.randint(1, 3))]
+    body = rng.choice((" and ", " or ", " -> ")).join((*parts, "a + b + c < x + y"))
+    typed = rng.choice(("", "ex x. ", "all x. ex y. ", "exists x, y: ", "for all a: ", "∀c ∃x: ")) + body
+    bare = re.sub(r"(?<=[0-9a-z])\*(?=[a-z])", "", typed)
+    assert bare != typed and "*" not in bare
+    assert read(bare) == read(typed), bare
 
 
 def test_damaged_texts_are_read_or_refused_in_one_line() -> None:

@@ -9,6 +9,7 @@ import pytest
 from qe.exact.ring import Ring
 from qe.formula.build import atom, convert
 from qe.formula.syntax import Relation
+from qe.io import formats
 from qe.io.mathml import expression
 from qe.io.text import read
 from tests.tables import each
@@ -31,6 +32,19 @@ from tests.tables import each
 )
 def test_how_they_are_written(given: str, written: str) -> None:
     assert str(read(given)) == written
+
+
+@each(
+    ("(x + y)^2 + (x + y) > 3", "(x + y)^2 + x + y - 3 > 0"),
+    ("0 <= (x + y)^2 + (x + y) <= 1", "0 <= (x + y)^2 + x + y <= 1"),
+    ("(x + 2*y)^3 + (x + 2*y) = z", "(x + 2*y)^3 + x + 2*y = z"),
+    ("(x + y)^2 - (x + y) > 3", "(x + y)^2 - (x + y) - 3 > 0"),
+)
+def test_a_form_that_is_added_has_no_brackets(text: str, printed: str) -> None:
+    """``(x + y)^2 + (x + y)`` was printed with all its brackets."""
+    formula = read(text)
+    assert str(formula) == printed and read(printed) == formula
+    assert formats.read(formats.write(formula, "latex"), "latex") == formula
 
 
 def test_mathml_has_the_same_forms() -> None:
