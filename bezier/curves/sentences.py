@@ -37,14 +37,12 @@ from qe.formula.build import atom, conj, disj, exists
 from qe.formula.syntax import FALSE, TRUE, Atom, Exists, Formula, Relation
 from qe.formula.traverse import conjuncts
 from qe.kernel.arithmetic.sturm import count_roots_between
-from qe.kernel.block import block_goals, check_block
-from qe.kernel.boolean import Search, Theory
+from qe.kernel.block import block_goals
 from qe.kernel.derivation import limits_of
 from qe.kernel.linear_equation import Pivot, substituted
-from qe.kernel.signs import ANY, POSITIVE, read_polynomials
 from qe.kernel.step import Claim
 from qe.options import Budget
-from qe.proof.certificate import Certificate, Evidence, written
+from qe.proof.certificate import Certificate, written
 from qe.proof.entry import Entry, Json, poly_to_text
 from qe.proving.lemma_list import EMPTY, Lemmas, Term, with_cases
 
@@ -143,40 +141,7 @@ class CurveSentence:
                 self._by_lines(lemmas, system, listed)
             else:
                 self._by_coefficients(lemmas, system, listed)
-        try:
-            theory = lemmas.only(range(len(lemmas.lemmas)))
-        except CertificateRejected:  # products that are too long for the kernel
-            return None
-        limits = limits_of(budget or Budget(), RULES)
-        evidence: Evidence = {"theory": self._with_cases(theory, spans)}
-        claim = Claim("signs", self.formula, FALSE, self.ring, Entry(evidence, ""), "")
-        try:
-            check_block(claim, (), limits)
-        except CertificateRejected:  # where comparisons have common factors, their signs have to be told apart, too
-            proved = with_cases(theory, block_goals(claim, ()), self.ring, limits)
-            if proved is None:
-                return None
-            evidence = {"theory": proved}
-        return Certificate.step("signs", self.ring.names, self.formula, FALSE, evidence)
-
-    def _with_cases(self, theory: Json, spans: Sequence[Sequence[Span]]) -> Json:
-        """The lemmas with the cases of the refutation: one system after the other is excluded, on one span after the
-        other."""
-        assert isinstance(theory, dict) and isinstance(self.formula, Exists)
-        polys = read_polynomials(Entry(theory["polynomials"], ""), self.ring)
-        search = Search(Theory(polys, (), limits_of(Budget(), {})), (self.formula.body,))
-        pieces = [conj(map(self.comparison, system)) for system in self.systems]
-        several, cases = len({*pieces} - {FALSE}) > 1, list[Json]()
-        for piece, listed in zip(pieces, spans, strict=True):
-            excluded: list[Json] = []
-            if several and piece != FALSE:
-                variable, signs = search.literal(piece)
-                excluded.append(8 * variable + (ANY & ~signs))
-            ends = listed[:-1] if self.theta is not None and piece != FALSE else ()
-            beyond = [polys.index(_above(self.ring.var("t"), high).normal()[1]) for _, high, _ in ends]
-            cases += [[0, [*excluded, 8 * number + POSITIVE]] for number in beyond]
-            cases += [[0, excluded]] if excluded else []
-        return {**theory, "cases": cases}
+        return by_signs(self.formula, lemmas, budget or Budget())
 
     def holds_at(self, t: Fraction) -> Certificate:
         """That it is true, since it holds at this parameter."""
@@ -260,6 +225,19 @@ class CurveSentence:
                 yield from (factor for factor, _ in factors)
         lemmas.identity(terms)
         lemmas.identity(((db, ((from_low, 1),)), (da, ((to_high, 1),)), (-w, ())))
+
+
+def by_signs(sentence: Formula, lemmas: Lemmas, budget: Budget) -> Certificate | None:
+    """That a sentence is false by the signs of polynomials that these lemmas tell. None where they do not prove it, or
+    have products that are too long for the kernel."""
+    limits = limits_of(budget, RULES)
+    try:
+        theory = lemmas.only(range(len(lemmas.lemmas)))
+        claim = Claim("signs", sentence, FALSE, lemmas.ring, Entry({"theory": theory}, ""), "")
+        proved = with_cases(theory, block_goals(claim, ()), lemmas.ring, limits)
+    except CertificateRejected:
+        return None
+    return proved and Certificate.step("signs", lemmas.ring.names, sentence, FALSE, {"theory": proved})
 
 
 def _total(ring: Ring, terms: Iterable[tuple[int, Poly]]) -> Poly:

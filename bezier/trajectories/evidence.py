@@ -12,22 +12,17 @@ from fractions import Fraction
 from math import comb, lcm
 
 from bezier.curves import bernstein as bs
-from bezier.curves.sentences import Said
+from bezier.curves.sentences import Said, by_signs
 from bezier.trajectories.limits import Limit, Outcome, Verdict, limited
 from bezier.trajectories.piecewise import Trajectory
-from qe.certify.registry import RULES
-from qe.errors import CertificateRejected, Unable
+from qe.errors import Unable
 from qe.exact.rational_poly import RationalPoly
 from qe.exact.ring import Poly, Ring
 from qe.formula.build import atom, conj, disj, exists
 from qe.formula.syntax import FALSE, TRUE, Formula, Relation
-from qe.kernel.block import block_goals
-from qe.kernel.derivation import limits_of
-from qe.kernel.step import Claim
 from qe.options import Budget
 from qe.proof.certificate import Certificate, Evidence
-from qe.proof.entry import Entry
-from qe.proving.lemma_list import Lemmas, with_cases
+from qe.proving.lemma_list import Lemmas
 
 RING = Ring.of(("t",))
 T = RING.var("t")
@@ -128,16 +123,9 @@ def refuted(sentence: Formula, excesses: Sequence[Poly], length: Fraction) -> Ce
         if len(factors) > 1 or factors[0][1] > 1:
             lemmas.identity([(1, ((poly, 1),)), (-unit, factors)])
         lemmas.line(list(dict.fromkeys((*(e.normal()[1] for e in ends), *(f for f, _ in factors)))), 0)
-    limits = limits_of(Budget(), RULES)
-    try:
-        plain = lemmas.only(range(len(lemmas.lemmas)))
-        claim = Claim("signs", sentence, FALSE, RING, Entry({"theory": plain}, ""), "")
-        theory = with_cases(plain, block_goals(claim, ()), RING, limits)
-    except CertificateRejected as error:
-        raise Unable(f"a piece has no certificate: {error}") from None
-    if theory is None:
+    if (certificate := by_signs(sentence, lemmas, Budget())) is None:
         raise Unable("a piece has no certificate")
-    return Certificate.step("signs", RING.names, sentence, FALSE, {"theory": theory})
+    return certificate
 
 
 def _by_bernstein(poly: Poly, length: Fraction) -> list[tuple[int, tuple[tuple[Poly, int], ...]]]:
