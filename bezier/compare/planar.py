@@ -56,14 +56,15 @@ class Plane:
 
     def section(self, condition: st.Statement, free: Sequence[str]) -> st.Statement:
         """A condition on free points that lie in the plane, in their coordinates there (see ``plane_coordinates``)."""
-        equations, variables = [], []
-        for point in free:
-            place = st.names(plane_coordinates(point))
-            for name, *axes in zip(coordinates(point), self.first, self.second, strict=True):
-                parts = [st.product(st.number(exactly(a)), c) for a, c in zip(axes, place, strict=True)]
-                equations.append(st.equal(st.name(name), st.total(parts)))
-                variables.append(name)
-        return st.exists(variables, st.every(*equations, condition))
+        pairs = [pair for point in free for pair in zip(coordinates(point), self.terms(point), strict=True)]
+        equations = [st.equal(st.name(name), term) for name, term in pairs]
+        return st.exists([name for name, _ in pairs], st.every(*equations, condition))
+
+    def terms(self, point: str) -> list[st.Term]:
+        """The three coordinates of a control point in the plane, by its ``plane_coordinates``."""
+        place, axes = st.names(plane_coordinates(point)), zip(self.first, self.second, strict=True)
+        rows = ([st.product(st.number(exactly(a)), c) for a, c in zip(row, place, strict=True)] for row in axes)
+        return [st.total(row) for row in rows]
 
 
 def plane_coordinates(point: str) -> tuple[str, str]:

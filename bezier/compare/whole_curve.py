@@ -9,16 +9,14 @@ the engine eliminates t.
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import dataclass, field
-from fractions import Fraction
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
 from typing import Any
 
 import qe
 from bezier.compare.planar import Plane, plane_coordinates
-from bezier.curves import bernstein as bs
 from bezier.curves.curve import Bezier
-from bezier.curves.scalar import exactly, is_zero, rational, subtract
+from bezier.curves.scalar import exactly, rational
 from bezier.curves.workspace import Condition
 from bezier.methods.control import statements as st
 from bezier.methods.control.system import stated
@@ -28,30 +26,19 @@ from qe.errors import InputError, Unable
 from qe.options import Budget
 
 POINT = "Q1"
+TIME = st.name("t")
+WHOLE = st.between(st.number(0), TIME, st.number(1))
 
 
 @dataclass(frozen=True, slots=True)
 class Family:
-    """Curves base(t) + sum x * move(t) over parameters x: control points that depend on parameters affinely."""
+    """Curves whose control points have terms for coordinates."""
 
-    base: Bezier
-    moves: Mapping[str, Bezier] = field(default_factory=dict)
-    """By the names of the parameters, of the degree of ``base``. All coordinates are rational."""
-
-    def __post_init__(self) -> None:
-        curves = (self.base, *self.moves.values())
-        if any(rational(c) is None for curve in curves for point in curve.points for c in point):
-            raise InputError("a family of curves needs rational coordinates")
+    points: Sequence[Sequence[st.Term]]
 
     def at(self) -> list[st.Term]:
         """The coordinates of the point at the parameter t."""
-        parts = {"": self.base, **self.moves}
-        return [_sum((bs.to_power(c.coordinate(i)), name) for name, c in parts.items()) for i in range(3)]
-
-    def control_point(self, k: int) -> list[st.Term]:
-        """The coordinates of a control point."""
-        parts = {"": self.base, **self.moves}
-        return [_sum(((c.points[k][i],), name) for name, c in parts.items()) for i in range(3)]
+        return [st.bracketed(st.bernstein(column, TIME)) for column in zip(*self.points, strict=True)]
 
     def inside(self, conditions: Iterable[Condition]) -> st.Statement:
         """The whole curve satisfies the conditions: a formula in the parameters, or a sentence without any."""
@@ -59,11 +46,7 @@ class Family:
 
     def polygon_inside(self, conditions: Iterable[Condition]) -> st.Statement:
         """All control points satisfy the conditions."""
-        return _all(conditions, [self.control_point(k) for k in range(self.base.degree + 1)])
-
-
-TIME = st.name("t")
-WHOLE = st.between(st.number(0), TIME, st.number(1))
+        return _all(conditions, self.points)
 
 
 def _for_all_t(body: st.Statement) -> st.Statement:
@@ -74,35 +57,16 @@ def _all(conditions: Iterable[Condition], points: Sequence[Sequence[st.Term]]) -
     return st.grouped(*(stated(c, point) for c in conditions for point in points))
 
 
-def _sum(parts: Iterable[tuple[Sequence[Any], str]]) -> st.Term:
-    """sum over the parts of (sum_k coefficient_k t^k) * name."""
-    terms: list[st.Term] = []
-    for coefficients, name in parts:
-        for k, c in enumerate(coefficients):
-            if not is_zero(c):
-                factors = (
-                    st.number(exactly(c)),
-                    *([st.power(TIME, k)] if k else []),
-                    *([st.name(name)] if name else []),
-                )
-                terms.append(st.product(*factors))
-    return st.bracketed(st.total(terms or [st.number(0)]))
-
-
 def families(problem: Problem, plane: Plane) -> dict[str, Family]:
     """The curves P, Q, R of formula (8) with Q1 in the plane, by name."""
-    system = quadratic.system(problem)
-    corners = [plane.point(Fraction(u), Fraction(v)) for u, v in ((0, 0), (1, 0), (0, 1))]
-    origin, *axes = (system.curves(system.points([q1])) for q1 in corners)
-    names = plane_coordinates(POINT)
-    return {
-        name: Family(base, {x: _difference(axis[name], base) for x, axis in zip(names, axes, strict=True)})
-        for name, base in origin.items()
-    }
+    system, q1 = quadratic.system(problem), plane.terms(POINT)
+    known = {name: [st.number(exactly(c)) for c in place] for name, place in system.given.items()} | {POINT: q1}
 
+    def terms(point: str) -> list[st.Term]:
+        parts = system.shape.combination(system.shape.ends.get(point, point))
+        return [st.combined((c, known[other][i]) for c, other in parts) for i in range(3)]
 
-def _difference(a: Bezier, b: Bezier) -> Bezier:
-    return Bezier(tuple(subtract(p, q) for p, q in zip(a.points, b.points, strict=True)))
+    return {name: Family([terms(point) for point in listed]) for name, listed in system.shape.curves.items()}
 
 
 def statement(problem: Problem, plane: Plane) -> st.Statement:
@@ -144,4 +108,7 @@ def implications(problem: Problem, plane: Plane, *, timeout: float | None = None
 def curve_inside(curve: Bezier, conditions: Sequence[Condition], *, timeout: float | None = None) -> bool:
     """Whether the whole curve satisfies the conditions, decided by the engine. Raises ``InputError`` for irrational
     control points; ``bezier.curves.containment`` decides the same without quantifier elimination, for those too."""
-    return qe.decide(Family(curve).inside(conditions).formula, timeout=timeout)
+    if any(rational(c) is None for point in curve.points for c in point):
+        raise InputError("a curve with rational coordinates expected")
+    family = Family([[st.number(exactly(c)) for c in point] for point in curve.points])
+    return qe.decide(family.inside(conditions).formula, timeout=timeout)

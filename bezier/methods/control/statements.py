@@ -13,6 +13,7 @@ from dataclasses import dataclass
 from enum import IntEnum
 from fractions import Fraction
 from functools import reduce
+from math import comb
 
 from qe.errors import InputError, InternalError
 from qe.exact.ring import Poly
@@ -123,6 +124,12 @@ def combined(pairs: Iterable[tuple[Fraction, Term]]) -> Term:
 def squares(terms: Iterable[Term]) -> Term:
     """The sum of the squares."""
     return total([power(term, 2) for term in terms])
+
+
+def bernstein(points: Sequence[Term], t: Term) -> Term:
+    """The value at t of the polynomial with these Bernstein coefficients."""
+    n, rest = len(points) - 1, difference(number(1), t)
+    return total([product(number(comb(n, i)), power(t, i), power(rest, n - i), p) for i, p in enumerate(points)])
 
 
 # --- statements ------------------------------------------------------------------------------------------------------

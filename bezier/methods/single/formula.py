@@ -2,12 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Mapping, Sequence
+from collections.abc import Collection, Mapping
 from dataclasses import dataclass
 from enum import Enum
 from fractions import Fraction
 from functools import lru_cache
-from math import comb
 from typing import Any
 
 import qe
@@ -47,7 +46,7 @@ def linearity(degree: int) -> st.Statement:
         )
         for i in range(degree + 1)
     ]
-    return st.for_all(("x0", "xn", "t"), st.equal(_at(spaced, t), _between(first, last, t)))
+    return st.for_all(("x0", "xn", "t"), st.equal(st.bernstein(spaced, t), _between(first, last, t)))
 
 
 def inverse() -> st.Statement:
@@ -89,7 +88,7 @@ def constraints(given: Task, axis: Axis, symbols: Collection[Symbol] = ()) -> li
         _time(given, symbol.value) if symbol in symbols else _number(t)
         for symbol, t in zip((Symbol.A, Symbol.B), given.times, strict=True)
     ]
-    result: list[st.Statement] = [st.equal(_at(points, t), height) for t in times]
+    result: list[st.Statement] = [st.equal(st.bernstein(points, t), height) for t in times]
     bounds = [start] * given.p + [height] * (given.q - given.p) + [goal] * (given.degree - 1 - given.q)
     result += [st.at_least(point, bound) for point, bound in zip(points[1:-1], bounds, strict=True)]
     xs = [_number(x) for x in given.abscissae]
@@ -108,17 +107,6 @@ def _number(value: Fraction) -> st.Term:
 def _time(given: Task, name: str) -> st.Term:
     low, high = given.x_ends
     return st.bracketed(st.product(_number(1 / (high - low)), st.difference(st.name(name), _number(low))))
-
-
-def _at(points: Sequence[st.Term], t: st.Term) -> st.Term:
-    """The value at t of the polynomial with these Bernstein coefficients."""
-    n, rest = len(points) - 1, st.difference(st.number(1), t)
-    return st.total(
-        [
-            st.product(st.number(comb(n, i)), st.power(t, i), st.power(rest, n - i), point)
-            for i, point in enumerate(points)
-        ]
-    )
 
 
 def total(given: Task, axis: Axis) -> st.Term:
@@ -166,7 +154,7 @@ def closed(given: Task, workspace: Workspace) -> st.Statement:
         inner = st.names(variables(given, axis)) if other == axis else ()
         columns.append([_number(other.start), *inner, _number(other.goal)])
     t, zero = st.name("t"), st.number(0)
-    at = [_at(column, t) for column in columns]
+    at = [st.bernstein(column, t) for column in columns]
     low, high = (_number(time) for time in given.times)
     kept = st.at_least(at[1 + given.axes.index(axis)], _number(axis.height or Fraction(0)))
     inside: st.Statement = st.at_most(st.squares(at), _number(workspace.radius_squared))
