@@ -237,7 +237,9 @@ def by_signs(sentence: Formula, lemmas: Lemmas, budget: Budget) -> Certificate |
         proved = with_cases(theory, block_goals(claim, ()), lemmas.ring, limits)
     except CertificateRejected:
         return None
-    return proved and Certificate.step("signs", lemmas.ring.names, sentence, FALSE, {"theory": proved})
+    if proved is None:
+        return None
+    return Certificate.step("signs", lemmas.ring.names, sentence, FALSE, {"theory": proved})
 
 
 def _total(ring: Ring, terms: Iterable[tuple[int, Poly]]) -> Poly:

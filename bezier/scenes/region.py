@@ -11,28 +11,40 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
+from functools import partial
+from itertools import groupby
 from math import comb
 
+import qe
 from bezier.obstacles.obstacle import Constraint
+from bezier.scenes.barrier import Wall
 from bezier.scenes.cells import Cell, FreeCells, Point, Side
 from bezier.scenes.outlines import outlines
 from bezier.scenes.scene import Scene, of_sides
-from bezier.scenes.solid import ZERO
+from bezier.scenes.sentences import NAMES, along, cell_of, coordinates, taken
+from bezier.scenes.solid import ZERO, Solid, directions
 from qe.errors import Unable
+from qe.exact.field import FieldElement
+from qe.exact.polynomial_system import solve_system
+from qe.exact.ring import Poly
+from qe.formula.syntax import Atom
 from qe.options import Budget
 
-SMALLEST, MOST_CELLS, ONE = Fraction(1, 2**24), 1_500, Fraction(1)
+SMALLEST, SMALL, MOST_CELLS, ONE = Fraction(1, 2**24), Fraction(1, 200), 1_500, Fraction(1)
+"""Of cells, as parts of the workspace; from SMALL on places are looked for where formulas touch."""
+LENGTHS = Fraction(1, 16), Fraction(1, 256), Fraction(1, 4096)
+"""Of bridges, as parts of the workspace."""
 
 
 @dataclass(frozen=True, slots=True)
 class Decomposed:
     """``free`` cells of a polytope ``domain`` in the workspace; the scene ``within`` it has bodies that are in formulas
-    in their place, and ``numbers`` says in which body of the scene each of its bodies is."""
+    in their place, and ``numbers`` says in which bodies of the scene each of its bodies is."""
 
     domain: Cell
     free: FreeCells
     within: Scene
-    numbers: tuple[int, ...]
+    numbers: tuple[tuple[int, ...], ...]
 
 
 def decomposed(scene: Scene, fine: int, budget: Budget, even: Fraction = ONE) -> Decomposed:
@@ -40,34 +52,121 @@ def decomposed(scene: Scene, fine: int, budget: Budget, even: Fraction = ONE) ->
     workspace wherever they are. Raises ``Unable`` where these do not tell."""
     domain, around = outlines(scene, fine)
     if not scene.formulas:
-        return Decomposed(domain, FreeCells.of(domain, around, budget), scene, tuple(range(len(scene.bodies))))
-    # mixed: cells that are not decided, each with what convex bodies leave of it
-    inner, free, mixed = list[tuple[Cell, int]](), list[Cell](), list[tuple[Cell, tuple[Cell, ...]]]()
+        return Decomposed(
+            domain, FreeCells.of(domain, around, budget), scene, tuple((i,) for i in range(len(scene.bodies)))
+        )
+    bridges: list[Wall] | None = None if scene.dimension == 2 else []
+
+    def left_of(cell: Cell) -> tuple[Cell, ...]:
+        part = cell.part(domain.sides)
+        return () if part is None else FreeCells.of(part, around, budget).cells
+
+    # mixed: cells that are not decided, each with what convex bodies and bridges leave of it
+    inner, free, mixed = list[tuple[Cell, tuple[int, ...]]](), list[Cell](), list[tuple[Cell, tuple[Cell, ...]]]()
     waiting, wide = [Cell.box(scene.low, scene.high)], max(b - a for a, b in zip(scene.low, scene.high, strict=True))
     for side in _planes(scene):
         waiting = [part for cell in waiting for part in cell.cut(side) if part is not None]
     while waiting:
         for cell in waiting:
             budget.check("cells of the scene")
-            owner, part = _owner(scene, cell), cell.part(domain.sides)
-            if owner is not None and owner >= 0:
-                inner.append((cell, owner))
-            elif part is not None:
-                cells = FreeCells.of(part, around, budget).cells
-                if owner is None:
-                    mixed.append((cell, cells))
-                else:
-                    free += cells
+            owners = _owners(scene, cell)
+            if owners is None:
+                mixed.append((cell, left_of(cell)))
+            elif owners:
+                inner.append((cell, owners))
+            else:
+                free += left_of(cell)
+        if bridges is None and any(_width(cell) < SMALL * wide for cell in waiting):
+            bridges = list(bridges_of(scene, budget))
+            around = (*around, *map(cell_of, bridges))
+            mixed = [(cell, left_of(cell)) for cell, _ in mixed]
         split = {k for k, (cell, _) in enumerate(mixed) if _width(cell) > even * wide}
         split = split or _between(scene, free, [cells for _, cells in mixed], around)
         waiting = [half for k in sorted(split) for half in _parts(mixed[k][0])]
         mixed = [entry for k, entry in enumerate(mixed) if k not in split]
         if len(mixed) + len(waiting) > MOST_CELLS or any(_width(cell) < SMALLEST * wide for cell in waiting):
             raise Unable("undecided: a path along the boundary of a formula may exist, which small cells do not decide")
-    solids = tuple(of_sides(scene.formulas[owner].name, cell.corners, cell.sides, ZERO) for cell, owner in inner)
-    numbers = *range(len(scene.solids)), *(len(scene.solids) + owner for _, owner in inner)
+    solids = tuple(of_sides(scene.formulas[k].name, cell.corners, cell.sides, ZERO) for cell, (k, *_) in inner)
+    bridges = bridges or []
+    solids += tuple(Solid("bridge", (b.start, b.end), cell_of(b).sides, ZERO, ()) for b in bridges)
+    count = len(scene.solids)
+    numbers = (
+        *((i,) for i in range(count)),
+        *(tuple(count + k for k in owners) for _, owners in inner),
+        *(b.bodies for b in bridges),
+    )
     within = replace(scene, formulas=(), holes=(*scene.holes, *solids))
     return Decomposed(domain, FreeCells.linked(free, around), within, numbers)
+
+
+# --- where formulas touch ------------------------------------------------------------------------------
+def bridges_of(scene: Scene, budget: Budget) -> Iterator[Wall]:
+    """Segments in bodies through places in the plane where formulas touch something or have a corner, which cells do
+    not fill: from rational ones into the bodies. One with coordinates in Q(sqrt(d)) lies on one line that is rational,
+    with its conjugate, and along that on both sides of it."""
+    wide, count = max(b - a for a, b in zip(scene.low, scene.high, strict=True)), len(scene.solids)
+    for place in _touching(scene, budget):
+        if all(value.is_rational for value in place):
+            point = tuple(value.as_fraction() for value in place)
+            for i, body in enumerate(scene.formulas, start=count):
+                yield from (Wall(point, end, (i,)) for end in _into(body, point, wide))
+        elif place[0].field.degree == 2:
+            yield from _across(scene, place, wide)
+
+
+def _touching(scene: Scene, budget: Budget) -> Iterator[tuple[FieldElement, ...]]:
+    """The common points of two boundaries, one of a formula, and the singular ones of that, in the workspace."""
+    at, seen = coordinates(scene), set[tuple[Fraction, ...]]()
+    curves, others = (
+        list(dict.fromkeys(f for body in bodies for piece in body.pieces for c in piece for f in _factors(c, at)))
+        for bodies in (scene.formulas, (*scene.solids, *scene.domain))
+    )
+    systems: list[tuple[Poly, ...]] = [(p, q) for i, p in enumerate(curves) for q in (*curves[:i], *others) if p != q]
+    systems += [(p, p.derivative(0), p.derivative(1)) for p in curves if p.total_degree > 1]
+    for system in systems:
+        budget.check("places where formulas touch")
+        try:
+            zeros = solve_system(system)
+        except Unable:  # a common curve, or too many
+            continue
+        for place in (tuple(zero.values[name] for name in NAMES[:2]) for zero in zeros):
+            low, high = (tuple(Fraction(ends[k]) for ends in (v.interval(40) for v in place)) for k in (0, 1))
+            ends = zip(scene.low, low, high, scene.high, strict=True)
+            if low not in seen and all(a <= d and c <= b for a, c, d, b in ends):
+                seen.add(low)
+                yield place
+
+
+def _factors(condition: Constraint, at: Sequence[Poly]) -> list[Poly]:
+    said = condition.formula(at)
+    return [f for f, _ in said.poly.factors()[1]] if isinstance(said, Atom) else []
+
+
+def _into(body: Solid, point: Point, wide: Fraction) -> list[Point]:
+    """Ends of segments in a body that begin at a point of it: one in each range of directions, as long as they can."""
+    for share in LENGTHS:
+        ends = [tuple(p + wide * share * d for p, d in zip(point, way, strict=True)) for way in directions(2, 4)]
+        held = [body.holds(point, end) for end in ends] if body.contains(point) else []
+        if any(held):
+            first = next((k for k in range(len(held)) if held[k] and not held[k - 1]), 0)
+            turned = groupby((k % len(held) for k in range(first, first + len(held))), key=held.__getitem__)
+            runs = [list(run) for is_held, run in turned if is_held]
+            return [ends[run[len(run) // 2]] for run in runs]
+    return []
+
+
+def _across(scene: Scene, place: Sequence[FieldElement], wide: Fraction) -> Iterator[Wall]:
+    """A segment with a point between its ends whose coordinates are quadratic, if it is in the way."""
+    low, high = map(Fraction, place[0].field.theta.interval(40))
+    rows = [(*value.coefficients, ZERO)[:2] for value in place]
+    for share in LENGTHS:
+        step = wide * share / max(abs(row[1]) for row in rows)
+        start, end = (tuple(a + b * at for a, b in rows) for at in (low - step, high + step))
+        bodies = tuple(i for i, body in enumerate(scene.bodies) if body.contains(start) or body.contains(end))
+        said = along((start, end), partial(taken, scene, [scene.bodies[i] for i in bodies]))
+        if bodies and qe.eliminate(said, timeout=1.0, process=False).truth:
+            yield Wall(start, end, bodies)
+            return
 
 
 def _planes(scene: Scene) -> Iterator[Side]:
@@ -114,16 +213,23 @@ def _width(cell: Cell) -> Fraction:
     return max(b - a for a, b in zip(*_ends(cell), strict=True))
 
 
-def _owner(scene: Scene, cell: Cell) -> int | None:
-    """The number of a formula that a cell is in; -1 where it is clear of all, None where that is not seen."""
-    is_clear = True
+def _owners(scene: Scene, cell: Cell) -> tuple[int, ...] | None:
+    """The numbers of formulas that a cell is in: one, or two that differ in one condition, which is reversed; none
+    where it is clear of all, None where that is not seen."""
+    is_clear, nearly = True, dict[Constraint, int]()
     for k, body in enumerate(scene.formulas):
         for piece in body.pieces:
             spans = [(c, *_span(c, cell)) for c in piece]
-            if all(c.holds(low) for c, low, _ in spans):
-                return k
+            lacking = [c for c, low, _ in spans if not c.holds(low)]
+            if not lacking:
+                return (k,)
             is_clear = is_clear and any(not c.holds(high) for c, _, high in spans)
-    return -1 if is_clear else None
+            if len(lacking) == 1:
+                reverse = replace(lacking[0].negated, strict=False)
+                if reverse in nearly:
+                    return nearly[reverse], k
+                nearly[lacking[0]] = k
+    return () if is_clear else None
 
 
 def _span(condition: Constraint, cell: Cell) -> tuple[Fraction, Fraction]:
