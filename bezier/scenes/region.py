@@ -13,7 +13,7 @@ from dataclasses import dataclass, replace
 from fractions import Fraction
 from functools import partial
 from itertools import groupby
-from math import comb
+from math import ceil, comb
 
 import qe
 from bezier.obstacles.obstacle import Constraint
@@ -157,11 +157,12 @@ def _into(body: Solid, point: Point, wide: Fraction) -> list[Point]:
 
 def _across(scene: Scene, place: Sequence[FieldElement], wide: Fraction) -> Iterator[Wall]:
     """A segment with a point between its ends whose coordinates are quadratic, if it is in the way."""
-    low, high = map(Fraction, place[0].field.theta.interval(40))
+    near = Fraction(sum(place[0].field.theta.interval(40))) / 2
     rows = [(*value.coefficients, ZERO)[:2] for value in place]
     for share in LENGTHS:
         step = wide * share / max(abs(row[1]) for row in rows)
-        start, end = (tuple(a + b * at for a, b in rows) for at in (low - step, high + step))
+        middle = near.limit_denominator(ceil(4 / step))
+        start, end = (tuple(a + b * (middle + side * step) for a, b in rows) for side in (-1, 1))
         bodies = tuple(i for i, body in enumerate(scene.bodies) if body.contains(start) or body.contains(end))
         said = along((start, end), partial(taken, scene, [scene.bodies[i] for i in bodies]))
         if bodies and qe.eliminate(said, timeout=1.0, process=False).truth:

@@ -130,7 +130,8 @@ class Solid:
         return [_short(n, self.support(n)) for n in dict.fromkeys((*core, *normals))]
 
     def inside(self, normals: Sequence[Point]) -> Cell | None:
-        """A polytope in it, touching it: one around it, drawn to its centre. None where it is too thin."""
+        """A polytope in it, touching it: one around it, drawn to its centre; its core where that is not in there. None
+        where it is too thin."""
         if self.is_polytope:
             return self.cell()
         whole, middle = Cell.within(*self.low_high(), self.around(normals)), self.centre
@@ -141,7 +142,8 @@ class Solid:
             corners = [tuple(m + share * (c - m) for m, c in zip(middle, p, strict=True)) for p in whole.corners]
             if all(map(self.contains, corners)):
                 sides = [(n, Fraction(dot(n, middle)) * (1 - share) + share * c) for n, c in whole.sides]
-                return Cell.of(sides, corners)
+                cell = Cell.of(sides, corners)
+                return cell if not self.sides or self.tube or all(map(cell.contains, self.corners)) else self.cell()
         return None
 
     def cell(self) -> Cell:
