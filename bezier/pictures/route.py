@@ -65,8 +65,8 @@ def _view(axis: Any, known: Route | Blocked, i: int, j: int) -> None:
     if isinstance(known, Route):
         way = np.concatenate([sampled(curve, 2 if len(curve) == 2 else 13) for curve in known.curves])
         axis.plot(*way[:, (i, j)].T, color=WAY, linewidth=2)
-    elif scene.dimension == 2 and known.divider is not None:
-        zeros = replace(scene.formulas[0], pieces=((known.divider,),))
+    elif scene.dimension == 2 and known.divider:
+        zeros = replace(scene.formulas[0], pieces=(known.divider,))
         axis.contour(*_shadow(scene, zeros, i, j), [0], colors=[WALL], linewidths=2)
     elif scene.dimension == 2:
         for wall in known.walls:

@@ -9,8 +9,9 @@ none that is in no wall is in both, no path within what is free leads from start
 an interval, which is connected; its parts in U and in V are closed in it, disjoint, together all of it, and neither is
 empty. All of this but where start and goal are is said in sentences, proved by the engine and checked by the kernel.
 
-BLOCKED, where formulas touch or are curves: a polynomial of them with different signs at start and goal. THEOREM. Where
-all its zeros in the workspace are in the way, no path is free. PROOF. Along one it would have a zero, in between.
+BLOCKED, where formulas touch or are curves: polynomials of them, up to signs, all positive at one of start and goal and
+one negative at the other. THEOREM. Where all zeros of the least of them in the workspace are in the way, no path is
+free. PROOF. Along one the least is continuous, and would have a zero in between.
 """
 
 from __future__ import annotations
@@ -18,7 +19,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
-from itertools import islice, pairwise
+from itertools import combinations, islice, pairwise
 from math import ceil
 
 import qe
@@ -37,7 +38,7 @@ from bezier.scenes.sentences import Curve, cell_of, coordinates, covering, every
 from bezier.scenes.shortest import chains
 from bezier.scenes.solid import Solid, directions, in_space
 from qe import arguments
-from qe.errors import CertificateRejected, InputError, Unable
+from qe.errors import BudgetExceeded, CertificateRejected, InputError, Unable
 from qe.formula.build import conj, disj, neg
 from qe.formula.syntax import FALSE, Formula
 from qe.options import Budget
@@ -46,7 +47,7 @@ from qe.proof.certificate import Certificate
 CURVE, MOST_POINTS = "curve", 6
 """How labels about curves begin; control points of one."""
 DIVIDED, DIVIDING = "the zeros of a polynomial are in the way", 5.0
-"""What is said of a divider; seconds in which that has to be proved."""
+"""What is said of a divider; seconds in which one of so many polynomials has to be proved."""
 DISJOINT = "none beside the walls is on both sides"
 PLANE_STEPS, SPACE_STEPS, MOST_WAYS = (1, 2, 3), (0, 1, 2, 3), 64
 """How fine the polytopes around round bodies are, one after the other: see ``directions``."""
@@ -165,8 +166,8 @@ class Blocked:
     goal_side: tuple[Cell, ...]
     reason: str
     certificate: Certificate | None
-    divider: Constraint | None = None
-    """Its polynomial has no zero that is free, and different signs at start and goal; then there are no walls."""
+    divider: tuple[Constraint, ...] = ()
+    """The least of their polynomials has no zero that is free, and other signs at start and goal; without walls."""
 
     blocked = True
 
@@ -174,10 +175,10 @@ class Blocked:
     def sentences(self) -> dict[str, Formula]:
         """What is proved of the walls and the two sides."""
         at = coordinates(self.scene)
-        if self.divider is not None:
-            above, weak = (replace(self.divider, strict=strict) for strict in (True, False))
-            taken_at = taken(self.scene, self.scene.bodies, at, 1)
-            zeros = every(at, disj((above.formula(at), weak.negated.formula(at), taken_at)))
+        if self.divider:
+            above, weak = ([replace(c, strict=strict) for c in self.divider] for strict in (True, False))
+            below, taken_at = (c.negated.formula(at) for c in weak), taken(self.scene, self.scene.bodies, at, 1)
+            zeros = every(at, disj((conj(c.formula(at) for c in above), *below, taken_at)))
             return {DIVIDED: zeros} | dict(surfaces(self.scene))
         walls = (cell_of(wall) for wall in self.walls)
         both = conj(disj(of_sides(cell.sides, at) for cell in side) for side in (self.start_side, self.goal_side))
@@ -191,10 +192,10 @@ class Blocked:
         scene = self.scene
         if any(scene.blocked_at(p) is not None for p in (scene.start, scene.goal)):
             return
-        if self.divider is not None and not _divides(self.divider, scene):
+        if self.divider and not _divides(self.divider, scene):
             raise CertificateRejected("sides", "start and goal are on one side of the zeros")
         for side, point in ((self.start_side, scene.start), (self.goal_side, scene.goal)):
-            if self.divider is None and not any(cell.contains(point) for cell in side):
+            if not self.divider and not any(cell.contains(point) for cell in side):
                 raise CertificateRejected("sides", "start or goal is not on its side")
         verified(certificate or self.certificate, said_of(self.sentences))
 
@@ -250,7 +251,7 @@ def decided(scene: Scene, budget: Budget, *, proof: bool = True, wish: Wish | No
         why = scene.blocked_at(point)
         if why is not None:
             return Blocked(scene, Cell.box(scene.low, scene.high), (), (), (), f"the {name} is {why}", None)
-    known = _divided(scene, budget) or (_in_plane if scene.dimension == 2 else _in_space)(scene, budget)
+    known = _divided(scene, budget, 1) or _by_cells(scene, budget)
     known, proofs = _shortest(known, wish, budget) if wish is not None and isinstance(known, Route) else (known, [])
     if not proof:
         return known
@@ -294,21 +295,38 @@ def _shortest(known: Route, wish: Wish, budget: Budget) -> tuple[Route, list[tup
     return min(short, key=lambda route: route.length, default=replace(known, bound=bound)), proofs
 
 
-def _divides(condition: Constraint, scene: Scene) -> bool:
-    """Whether its polynomial is positive at one of start and goal, and negative at the other."""
-    one, other = (sign(condition.value((*point, 0)[:3])) for point in (scene.start, scene.goal))
-    return one * other < 0
+def _divides(conditions: Sequence[Constraint], scene: Scene) -> bool:
+    """Whether all polynomials are positive at one of start and goal, and one is negative at the other."""
+    ends = [min(sign(c.value((*point, 0)[:3])) for c in conditions) for point in (scene.start, scene.goal)]
+    return min(ends) < 0 < max(ends)
 
 
-def _divided(scene: Scene, budget: Budget) -> Blocked | None:
-    """By a polynomial of the formulas, where the engine soon proves it."""
-    around = Cell.box(scene.low, scene.high)
-    for c in dict.fromkeys(c for body in scene.formulas for piece in body.pieces for c in piece if _divides(c, scene)):
-        known = Blocked(scene, around, (), (), (), "a curve or surface of a formula separates start and goal", None, c)
-        budget.check("sides of formulas")
-        if qe.eliminate(known.sentences[DIVIDED], timeout=DIVIDING, process=False).truth:
-            return known
+def _divided(scene: Scene, budget: Budget, count: int) -> Blocked | None:
+    """By so many polynomials of the formulas, where the engine soon proves it."""
+    around, listed = Cell.box(scene.low, scene.high), dict[Constraint, None]()
+    for c in (c for body in scene.formulas for piece in body.pieces for c in piece):
+        listed |= dict.fromkeys(replace(c, terms=same.terms, strict=False) for same in (c, c.negated)[:count])
+    limit = Budget(DIVIDING)
+    for chosen in combinations(listed, count):
+        if _divides(chosen, scene) and (remaining := limit.remaining() or 0) > 0:
+            budget.check("sides of formulas")
+            reason = "a curve or surface of a formula separates start and goal"
+            known = Blocked(scene, around, (), (), (), reason, None, chosen)
+            if qe.eliminate(known.sentences[DIVIDED], timeout=remaining, process=False).truth:
+                return known
     return None
+
+
+def _by_cells(scene: Scene, budget: Budget) -> Route | Blocked:
+    try:
+        return (_in_plane if scene.dimension == 2 else _in_space)(scene, budget)
+    except BudgetExceeded:
+        raise
+    except Unable:
+        known = next((known for count in (2, 3) if (known := _divided(scene, budget, count)) is not None), None)
+        if known is None:
+            raise
+        return known
 
 
 def _in_plane(scene: Scene, budget: Budget) -> Route | Blocked:

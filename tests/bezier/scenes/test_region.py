@@ -67,11 +67,57 @@ def test_a_wall_of_formulas_in_space_is_proved_by_sentences() -> None:
         proved(replace(found, walls=(wide, *found.walls[1:])).sentences, Budget(20))
 
 
-@each("y = (x-1)^2 + 4 & y <= 6 | y = 6 & (x-1)^2 <= 2", "(x-5)^2 + (y-2)^2 <= 4 | (x-5)^2 + (y-7)^2 <= 9")
-def test_what_touches_is_undecided(text: str, monkeypatch: pytest.MonkeyPatch) -> None:
+TOUCHING = {
+    "two discs": ["(x-5)^2 + (y-2)^2 <= 9", "(x-5)^2 + (y-15/2)^2 <= 25/4"],
+    "parts of one formula": ["(x-5)^2 + (y-2)^2 <= 4 | (x-5)^2 + (y-7)^2 <= 9 | x = 5 & y <= 1"],
+    "obliquely": ["(x-2)^2 + (y-2)^2 <= 9", "(x-34/5)^2 + (y-28/5)^2 <= 9", "x >= 6 & y >= 6"],
+    "a node": ["((x-5)^2 + (y-5)^2)^2 <= 25*((y-5)^2 - (x-5)^2)"],
+    "along a curve": [f"4*(x-5)^2 + (y-5)^2 <= 36 & 10*y {s} x^2" for s in ("<=", ">=")],
+    "at a corner in Q(sqrt(2))": [
+        "y >= 5 & y <= 8 & x^2 - 18 >= y - 5 & x <= 8",
+        "y <= 5 & 2*(x^2 - 18) <= y - 5",
+        "x = 7 & y >= 8",
+    ],
+    "arcs around a point": ["y = (x-9)^2/2 + 1 & y <= 5", "y = 9 - (x-9)^2/2 & y >= 5"],
+}
+
+
+@pytest.mark.parametrize("name", TOUCHING)
+def test_what_touches_leaves_no_passage(name: str) -> None:
+    """It was undecided: small cells do not tell."""
+    goal = {"goal": [9, 5]} if "arcs" in name else {}
+    start = {"start": [1, 9], "goal": [9, 1]} if name == "obliquely" else goal
+    listed = list(map(formula, TOUCHING[name]))
+    found = decided(read_scene({**SCENE, **start, "obstacle": listed}), Budget(60))
+    assert isinstance(found, Blocked)
+    found.check()
+
+
+def test_a_gap_of_a_thousandth_between_discs_is_a_passage() -> None:
+    listed = [formula("(x-5)^2 + (y-2)^2 <= 9"), formula("(x-5)^2 + (y-7501/1000)^2 <= 25/4")]
+    found = decided(read_scene({**SCENE, "obstacle": listed}), Budget(60))
+    found.check()
+    assert not found.blocked
+
+
+def test_a_wall_or_a_divider_that_is_not_in_the_way_has_no_proof() -> None:
+    for name, altered in (("two discs", "walls"), ("arcs around a point", "divider")):
+        goal = {"goal": [9, 5]} if altered == "divider" else {}
+        known = decided(read_scene({**SCENE, **goal, "obstacle": list(map(formula, TOUCHING[name]))}), Budget(60))
+        assert isinstance(known, Blocked)
+        for k in range(len(getattr(known, altered))):
+            part = [p for i, p in enumerate(getattr(known, altered)) if i != k]
+            other = replace(known, **{altered: tuple(part)})
+            with pytest.raises((qe.CertificateRejected, qe.Unable)):
+                proved(other.sentences, Budget(20))
+                other.check()
+
+
+def test_what_touches_at_a_place_without_a_rational_line_is_undecided(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr("bezier.scenes.region.SMALLEST", Fraction(1, 64))
+    listed = [formula("y >= ((x-3)^2 - 2)^2 + 5"), formula("y <= 5 & x <= 6"), formula("x = 6 & y <= 7")]
     with pytest.raises(qe.Unable, match="boundary of a formula"):
-        decided(read_scene({**SCENE, "obstacle": [formula(text)]}), Budget(60))
+        decided(read_scene({**SCENE, "start": [1, "26/5"], "goal": [9, 3], "obstacle": listed}), Budget(60))
 
 
 @each(
@@ -90,17 +136,17 @@ def test_a_curve_in_the_way_separates_by_its_signs(
     assert known.blocked is blocked
     if not isinstance(known, Blocked):
         return
-    assert known.divider is not None
+    (divider,) = known.divider
     open_scene = read_scene({**SCENE, "start": start, "obstacle": [formula(f"{t} & y <= 6") for t in texts]})
     altered = [
-        replace(known, divider=replace(known.divider, terms=known.divider.terms[1:])),
+        replace(known, divider=(replace(divider, terms=divider.terms[1:]),)),
         replace(known, scene=open_scene),
         replace(known, scene=replace(scene, start=scene.goal)),
-        replace(known, divider=None),
+        replace(known, divider=()),
     ]
     for other in altered:
         with pytest.raises(qe.CertificateRejected):
             other.check()
-    strict = replace(known, scene=open_scene, divider=replace(known.divider, strict=True))
+    strict = replace(known, scene=open_scene, divider=(replace(divider, strict=True),))
     with pytest.raises(qe.Unable):
         proved(strict.sentences, Budget(20))
