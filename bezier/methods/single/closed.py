@@ -21,18 +21,8 @@ from bezier.curves.scalar import sign
 from bezier.curves.workspace import Workspace, WorkspaceKind
 from bezier.input.task import Task, Values
 from bezier.methods.single.cuts import Cut, CutKind, Model
-from bezier.methods.single.program import curve, program
-from bezier.methods.single.simplex import (
-    Check,
-    Contradiction,
-    LinearOptimum,
-    LinearProgram,
-    LinearRow,
-    Outcome,
-    certificate,
-    narrowed,
-    solve,
-)
+from bezier.methods.single.program import curve, lower_of, rows_of
+from bezier.methods.single.simplex import Check, Solution, solve
 from qe.errors import BudgetExceeded, InputError, InternalError
 from qe.proof.certificate import Certificate
 
@@ -92,12 +82,11 @@ class _Search:
     def __init__(self, model: Model, check: Check) -> None:
         self.model, self.check, self.cuts, self.rounds = model, check, model.initial(), 0
         self.rigid: set[str] = set()
-        self.slack = (*(Fraction(0) for _ in model.costs[1:]), Fraction(-1))
 
     def run(self) -> ProvedCurve | NoCurve:
         """Slack first, then the sum."""
         inner = self.inner_point()
-        if isinstance(inner, Contradiction):
+        if isinstance(inner, Solution):
             return NoCurve(tuple(self.cuts), self.certificate(inner), self.rounds)
         best, outcome = self.least_sum(self.simplified(inner))
         exact = self.sum_of(best) == outcome.value
@@ -113,7 +102,7 @@ class _Search:
             self.rounds,
         )
 
-    def least_sum(self, inner: Values) -> tuple[Values, LinearOptimum]:
+    def least_sum(self, inner: Values) -> tuple[Values, Solution]:
         """A proved curve with a small sum, from the proved curve ``inner`` on, and the optimum of the cuts so far."""
         best = inner
         for _ in self.counted():
@@ -128,11 +117,11 @@ class _Search:
             self.cuts += [*result, *outside]
         return best, self.optimum()
 
-    def inner_point(self) -> Values | Contradiction:
+    def inner_point(self) -> Values | Solution:
         """A curve proved to satisfy everything, with the largest slack that the cuts allow."""
         for _ in self.counted():
-            outcome = solve(self.program(), [self.slack], check=self.check)
-            if isinstance(outcome, Contradiction):
+            outcome = solve(self.model.program(self.cuts, self.rigid), check=self.check)
+            if not outcome.optimal:
                 return outcome
             result = self.violations(outcome.point)
             if not result:
@@ -142,11 +131,11 @@ class _Search:
                 self.rigid |= self.tight(outcome)
         raise BudgetExceeded(f"Method 1*: no curve proved or excluded after {MAX_ROUNDS} rounds", limit="rounds")
 
-    def program(self) -> LinearProgram:
-        """The program of the cuts so far."""
-        return self.model.program(self.cuts, self.rigid)
+    def certificate(self, outcome: Solution) -> Certificate:
+        """The outcome for the program without the slack: where s has a part in a proof, s = 0 gives another."""
+        return outcome.narrowed(self.model.plain_program(self.cuts)).certificate
 
-    def tight(self, outcome: LinearOptimum) -> set[str]:
+    def tight(self, outcome: Solution) -> set[str]:
         """The axes (empty: the ball) whose cuts leave no slack at all, by the multipliers."""
         cuts = (*self.model.tangents, *self.cuts)
         equations = len(self.model.task.raised) * 2
@@ -159,10 +148,12 @@ class _Search:
             self.rounds += 1
             yield k
 
-    def optimum(self) -> LinearOptimum:
+    def optimum(self) -> Solution:
         """The least sum, then the largest slack, of a program that is known to have a point."""
-        result = solve(self.program(), [self.model.costs, self.slack], check=self.check)
-        if isinstance(result, Contradiction):
+        program = self.model.program(self.cuts, self.rigid, self.model.costs)
+        slack = (*(Fraction(0) for _ in self.model.costs[1:]), Fraction(-1))
+        result = solve(program, [slack], check=self.check)
+        if not result.optimal:
             raise InternalError("a linear program without the point that was proved to satisfy it")
         return result
 
@@ -175,7 +166,7 @@ class _Search:
         """The objective."""
         return sum((c * x for c, x in zip(self.model.costs, point, strict=True)), Fraction(0))
 
-    def last_feasible(self, inner: Values, outcome: LinearOptimum) -> tuple[Values, list[Cut]]:
+    def last_feasible(self, inner: Values, outcome: Solution) -> tuple[Values, list[Cut]]:
         """A point of the segment from ``inner`` to the optimum whose curve is proved, with a small enough sum or close
         to the last such point, and cuts against a point just beyond."""
         outer, enough = outcome.point, _enough(outcome)
@@ -205,20 +196,8 @@ class _Search:
                 return candidate
         return point
 
-    def certificate(self, outcome: Outcome) -> Certificate:
-        """The outcome for the program without the slack: where s has a part in a proof, s = 0 gives another."""
-        plain, costs = plain_program(self.model, self.cuts)
-        return certificate(plain, costs, narrowed(outcome, len(plain.rows) + 1, plain))
 
-
-def plain_program(model: Model, cuts: Sequence[Cut]) -> tuple[LinearProgram, Values]:
-    """The program of (4) and the cuts without the slack, and its objective."""
-    whole = model.program(cuts)
-    rows = tuple(LinearRow(row.coefficients[:-1], row.bound, row.equation) for row in whole.rows[:-1])
-    return LinearProgram(whole.names[:-1], whole.lower[:-1], rows), model.costs[:-1]
-
-
-def _enough(outcome: LinearOptimum) -> Fraction:
+def _enough(outcome: Solution) -> Fraction:
     """A sum that is close enough to the bound."""
     return outcome.value + TOLERANCE * abs(outcome.value)
 
@@ -242,16 +221,15 @@ def _rounded(task: Task, point: Values, step: Fraction) -> Values | None:
     size = task.degree - 1
     neighbours = [i for i in (task.p, task.q + 1, task.p - 1, task.q) if 1 <= i <= size][:2]
     for k, axis in enumerate(task.raised):
-        base = program(task, axis)
-        given = zip(point[k * size : (k + 1) * size], base.lower, strict=True)
+        lower, (first, second) = lower_of(task, axis), (form for form, _ in rows_of(task, axis))
+        given = zip(point[k * size : (k + 1) * size], lower, strict=True)
         values = [low if v == low else max(low, round(v / step) * step) for v, low in given]
         i, j = (index - 1 for index in neighbours)
         values[i] = values[j] = Fraction(0)
-        first, second = base.rows
-        a, b, c, d = (row.coefficients[index] for row in (first, second) for index in (i, j))
-        u, v = -first.at(values), -second.at(values)
+        a, b, c, d = (form.gradient[index] for form in (first, second) for index in (i, j))
+        u, v = (-Fraction(form.value(tuple(values))) for form in (first, second))
         values[i], values[j] = (u * d - b * v) / (a * d - b * c), (a * v - u * c) / (a * d - b * c)
-        if any(v < low for v, low in zip(values, base.lower, strict=True)):
+        if any(v < low for v, low in zip(values, lower, strict=True)):
             return None
         result += values
     return (*result, Fraction(0))

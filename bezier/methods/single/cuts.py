@@ -13,7 +13,7 @@ bounds of (4) by the convex hull property. A cut at t is S(t) >= s h, or, for an
 from __future__ import annotations
 
 from collections.abc import Collection, Iterable, Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from enum import Enum
 from fractions import Fraction
 from math import comb, prod
@@ -25,8 +25,11 @@ from bezier.curves.nonnegative import Negative, decide
 from bezier.curves.scalar import Vector, dot, scale, sign
 from bezier.curves.workspace import Workspace
 from bezier.input.task import Axis, Task, Values
-from bezier.methods.single.program import curve, objective, program, weights_at
-from bezier.methods.single.simplex import LinearProgram, LinearRow
+from bezier.methods.single.program import curve, lower_of, objective, rows_of, weights_at, widened
+from bezier.methods.single.simplex import Row, linear_program
+from qe.convex.system import ConvexSystem
+from qe.exact.quadratic_form import Quadratic
+from qe.proof.multipliers import FormRelation
 
 ZERO, ONE = Fraction(0), Fraction(1)
 GRID = 32
@@ -98,19 +101,29 @@ class Model:
         inner = (tuple(point[k * size : (k + 1) * size]) for k in range(len(self.task.raised)))
         return {axis.name: (axis.start, *part, axis.goal) for axis, part in zip(self.task.raised, inner, strict=True)}
 
-    def program(self, cuts: Sequence[Cut], rigid: Collection[str] = ()) -> LinearProgram:
-        """(4) on all raised axes, the cuts, and 0 <= s <= 1. Cuts whose axis is among ``rigid`` have no slack."""
-        size, axes = self.task.degree - 1, self.task.raised
-        single = [program(self.task, axis) for axis in axes]
-        rows = []
-        for k, part in enumerate(single):
-            before, after = (ZERO,) * (size * k), (ZERO,) * (size * (len(axes) - 1 - k) + 1)
-            rows += [LinearRow((*before, *row.coefficients, *after), row.bound, True) for row in part.rows]
+    def program(self, cuts: Sequence[Cut], rigid: Collection[str] = (), costs: Values = ()) -> ConvexSystem:
+        """(4) on all raised axes, the cuts, and 0 <= s <= 1, to minimise ``costs``, or without them -s. Cuts whose axis
+        is among ``rigid`` have no slack."""
+        axes, width, rows = self.task.raised, len(self.names), list[Row]()
+        for k, axis in enumerate(axes):
+            rows += [widened(row, width, k * (self.task.degree - 1)) for row in rows_of(self.task, axis)]
         for cut in (*self.tangents, *cuts):
-            row = self.row(cut)
-            rows.append(replace(row, coefficients=(*row.coefficients[:-1], ZERO)) if cut.axis in rigid else row)
-        rows.append(LinearRow((*(ZERO,) * (size * len(axes)), ONE), ONE))
-        return LinearProgram(self.names, (*(v for part in single for v in part.lower), ZERO), tuple(rows))
+            form, relation = self.row(cut)
+            gradient = (*form.gradient[:-1], ZERO if cut.axis in rigid else form.gradient[-1])
+            rows.append((Quadratic.linear(gradient, form.constant), relation))
+        slack = (*(ZERO,) * (width - 1), ONE)
+        rows.append((Quadratic.linear(slack, -ONE), FormRelation.LE))
+        lower = (*(v for axis in axes for v in lower_of(self.task, axis)), ZERO)
+        return linear_program(self.names, costs or scale(-1, slack), rows, lower)
+
+    def plain_program(self, cuts: Sequence[Cut]) -> ConvexSystem:
+        """The program of (4) and the cuts without the slack."""
+        whole = self.program(cuts)
+        last = len(whole.forms) - 1  # s >= 0; the row s <= 1 stands before all bounds
+        kept = [k for k in range(last) if k != last - len(whole.names)]
+        forms = (Quadratic.linear(whole.forms[k].gradient[:-1], whole.forms[k].constant) for k in kept)
+        relations = tuple(whole.relations[k] for k in kept)
+        return ConvexSystem(whole.names[:-1], Quadratic.linear(self.costs[:-1]), tuple(forms), relations)
 
     # --- the sphere ----------------------------------------------------------------------------------------------
 
@@ -129,7 +142,7 @@ class Model:
 
     # --- rows ----------------------------------------------------------------------------------------------------
 
-    def row(self, cut: Cut) -> LinearRow:
+    def row(self, cut: Cut) -> Row:
         """The cut over the unknowns and s."""
         match cut.kind:
             case CutKind.HEIGHT:
@@ -149,7 +162,7 @@ class Model:
                 slope = prod(factor for factor in self.factors(cut.t) if factor)  # |w'| at its simple zero
                 return self._plane_row(normal, weights, ZERO, self.workspace.radius_squared * slope)
 
-    def _height_row(self, cut: Cut) -> LinearRow:
+    def _height_row(self, cut: Cut) -> Row:
         """h - P(t) + s h (t - t_a)(t_b - t) <= 0, or, at t_a and t_b, its derivative inwards."""
         height = next(Fraction(axis.height or 0) for axis in self.task.raised if axis.name == cut.axis)
         down = (ZERO, *(Fraction(-(axis.name == cut.axis)) for axis in self.task.axes))
@@ -162,14 +175,15 @@ class Model:
 
     def _plane_row(
         self, normal: Vector, weights: Values, bound: Fraction, slack: Fraction, equation: bool = False
-    ) -> LinearRow:
+    ) -> Row:
         """normal . (sum weights_i P_i) + slack s <= bound."""
         between = [ZERO] * (self.task.degree - 1)
         straight = curve(self.task, {axis.name: (axis.start, *between, axis.goal) for axis in self.task.raised})
         fixed = [dot(weights, straight.coordinate(i)) for i in range(straight.dimension)]
         factors = [normal[1 + self.task.axes.index(axis)] for axis in self.task.raised]
         coefficients = [factor * w for factor in factors for w in weights[1:-1]]
-        return LinearRow((*coefficients, slack), bound - dot(normal, fixed), equation)
+        relation = FormRelation.EQ if equation else FormRelation.LE
+        return Quadratic.linear((*coefficients, slack), dot(normal, fixed) - bound), relation
 
     # --- violations ----------------------------------------------------------------------------------------------
 

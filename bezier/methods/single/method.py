@@ -16,8 +16,7 @@ from bezier.methods.single import restore as single_restore
 from bezier.methods.single.closed import ProvedCurve
 from bezier.methods.single.cuts import Cut
 from bezier.methods.single.plan import CLOSED, NAME, SUMS, SinglePlan, above_label, lowest_label, of_axis
-from bezier.methods.single.program import TIE_BREAK, Dip
-from bezier.methods.single.simplex import Contradiction, LinearOptimum
+from bezier.methods.single.program import TIE_BREAK, Dip, lower_of
 from bezier.plans import Method, Restored, Stated, Story
 from bezier.problem import Problem
 from bezier.report import html, mathml, parts
@@ -99,7 +98,7 @@ def _quality(closed: ProvedCurve) -> str:
 
 def reason(plan: SinglePlan) -> str:
     """Why there is no path, in one sentence."""
-    none = [item.axis.name for item in plan.chosen if isinstance(item.outcome, Contradiction)]
+    none = [item.axis.name for item in plan.chosen if not item.outcome.optimal]
     if none:
         return f"no control points exist: problem (4) for {' and '.join(none)} contradicts itself"
     return (
@@ -162,10 +161,11 @@ def _programs(plan: SinglePlan) -> Section:
     content: list[Text] = []
     for item in plan.chosen:
         labels = [f"P_{item.axis.name}(t_{end}) = h" for end in ("a", "b")]
-        labels += [f"{name} >= {low}" for name, low in zip(item.program.names, item.program.lower, strict=True)]
-        result = (
-            f"the least sum {brief(item.outcome.value)}" if isinstance(item.outcome, LinearOptimum) else "no solution"
-        )
+        labels += [
+            f"{name} >= {low}"
+            for name, low in zip(item.outcome.program.names, lower_of(plan.task, item.axis), strict=True)
+        ]
+        result = f"the least sum {brief(item.outcome.value)}" if item.outcome.optimal else "no solution"
         rows = [
             (label, parts.number(dual)) for label, dual in zip(labels, item.outcome.multipliers, strict=True) if dual
         ]
@@ -217,7 +217,7 @@ def _claims(plan: SinglePlan) -> dict[str, str]:
     """What each certificate of the method says."""
     result = {
         of_axis(item.axis.name): f"Problem (4) for {item.axis.name}: the sum is the least possible one"
-        if isinstance(item.outcome, LinearOptimum)
+        if item.outcome.optimal
         else f"Problem (4) for {item.axis.name} contradicts itself"
         for item in plan.chosen
     }

@@ -18,7 +18,6 @@ from bezier.methods.single import formula as single_formula
 from bezier.methods.single.closed import NoCurve, ProvedCurve, close
 from bezier.methods.single.formula import Piecewise, Symbol
 from bezier.methods.single.program import Chosen, Dip, choose, curve, dips, lowest
-from bezier.methods.single.simplex import Contradiction, LinearOptimum, certificate
 from bezier.paths.path import Path, Proof, assemble, prove
 from bezier.plans import Begun, Clock, Outcome, Plan
 from bezier.problem import Problem
@@ -81,7 +80,7 @@ class SinglePlan(Plan):
     @property
     def least_sums(self) -> dict[str, Fraction]:
         """The least sum of (4) by axis, where there is one."""
-        return {c.axis.name: c.outcome.value for c in self.chosen if isinstance(c.outcome, LinearOptimum)}
+        return {c.axis.name: c.outcome.value for c in self.chosen if c.outcome.optimal}
 
     @property
     def gap(self) -> Fraction:
@@ -215,7 +214,7 @@ def _attainable(problem: Problem, given: Task, clock: Clock) -> Any:
 
 def _printed(problem: Problem, given: Task, chosen: tuple[Chosen, ...]) -> Printed | None:
     """The curve that (4) gives, and the lowest one of those that it allows as well; None without solutions."""
-    if any(isinstance(item.outcome, Contradiction) for item in chosen):
+    if not all(item.outcome.optimal for item in chosen):
         return None
     halfway = sum(given.times, Fraction(0)) / 2
     lower = {axis.name: row for axis in given.raised if (row := lowest(given, axis, halfway)) is not None}
@@ -292,11 +291,11 @@ def labelled(fields: Mapping[str, Any]) -> list[tuple[str, qe.Certificate]]:
     given, chosen, printed, closed, path, above = map(
         fields.__getitem__, ("task", "chosen", "printed", "closed", "path", "above")
     )
-    result = [(of_axis(item.axis.name), certificate(item.program, item.objective, item.outcome)) for item in chosen]
+    result = [(of_axis(item.axis.name), item.outcome.certificate) for item in chosen]
     for item in chosen if printed is not None else ():
-        if printed is not None and isinstance(item.outcome, LinearOptimum):
+        if printed is not None and item.outcome.optimal:
             other = replace(item.outcome, point=printed.lower[item.axis.name][1:-1])
-            result.append((lowest_label(item.axis.name), certificate(item.program, item.objective, other)))
+            result.append((lowest_label(item.axis.name), other.certificate))
     if closed is not None:
         result.append((CLOSED, closed.certificate))
     if path is not None:

@@ -17,7 +17,10 @@ from bezier.curves import bernstein as bs
 from bezier.curves.curve import Bezier
 from bezier.curves.nonnegative import Negative, decide
 from bezier.input.task import Axis, Task, Values, equally_spaced
-from bezier.methods.single.simplex import Contradiction, LinearOptimum, LinearProgram, LinearRow, narrowed, solve
+from bezier.methods.single.simplex import Row, Solution, linear_program, solve
+from qe.convex.system import ConvexSystem
+from qe.exact.quadratic_form import Quadratic
+from qe.proof.multipliers import FormRelation
 
 TIE_BREAK = (
     "among the minima of the sum the one whose largest |coordinate| is least, then the lexicographically smallest"
@@ -27,22 +30,18 @@ TIE_BREAK = (
 
 @dataclass(frozen=True, slots=True)
 class Chosen:
-    """Problem (4) of one axis with its answer: ``outcome`` for ``program`` and ``objective``, with the dual proof.
+    """Problem (4) of one axis with its answer, and the dual proof.
 
     ``values``: all coordinates from start to goal, by the ``TIE_BREAK``; None when (4) has no solution.
     """
 
     axis: Axis
-    program: LinearProgram
-    objective: Values
-    outcome: LinearOptimum | Contradiction
+    outcome: Solution
 
     @property
     def values(self) -> Values | None:
         """All n+1 coordinates."""
-        if isinstance(self.outcome, Contradiction):
-            return None
-        return (self.axis.start, *self.outcome.point, self.axis.goal)
+        return (self.axis.start, *self.outcome.point, self.axis.goal) if self.outcome.optimal else None
 
 
 def weights_at(degree: int, t: Fraction) -> Values:
@@ -55,15 +54,24 @@ def variables(given: Task, axis: Axis) -> tuple[str, ...]:
     return tuple(f"{axis.name}{i}" for i in range(1, given.degree))
 
 
-def program(given: Task, axis: Axis) -> LinearProgram:
-    """The constraints of (4) for one raised axis."""
+def rows_of(given: Task, axis: Axis) -> list[Row]:
+    """The equations of (4) for one raised axis."""
     rows = []
     for t in given.times:
         first, *inner, last = weights_at(given.degree, t)
-        bound = Fraction(axis.height or 0) - first * axis.start - last * axis.goal
-        rows.append(LinearRow(tuple(inner), bound, equation=True))
-    lower = tuple(given.lower_bound(axis, i) for i in range(1, given.degree))
-    return LinearProgram(variables(given, axis), lower, tuple(rows))
+        known = first * axis.start + last * axis.goal - Fraction(axis.height or 0)
+        rows.append((Quadratic.linear(inner, known), FormRelation.EQ))
+    return rows
+
+
+def lower_of(given: Task, axis: Axis) -> Values:
+    """The lower bounds of (4)."""
+    return tuple(given.lower_bound(axis, i) for i in range(1, given.degree))
+
+
+def program(given: Task, axis: Axis) -> ConvexSystem:
+    """Problem (4) for one raised axis."""
+    return linear_program(variables(given, axis), objective(given), rows_of(given, axis), lower_of(given, axis))
 
 
 def objective(given: Task) -> Values:
@@ -73,25 +81,27 @@ def objective(given: Task) -> Values:
 
 def choose(given: Task, axis: Axis) -> Chosen:
     """Solve (4) exactly for one raised axis, with the ``TIE_BREAK``."""
-    base, cost = program(given, axis), objective(given)
-    size = len(cost)
-    unit = [tuple(Fraction(int(i == j)) for i in range(size + 1)) for j in range(size + 1)]
-    signed = [(side, j) for side in (1, -1) for j in range(size) if side > 0 or base.lower[j] < 0]
-    at_most = [LinearRow((*(side * v for v in unit[j][:-1]), Fraction(-1)), Fraction(0)) for side, j in signed]
-    wider = LinearProgram(
-        (*base.names, f"{axis.name}max"),
-        (*base.lower, Fraction(0)),
-        (*(LinearRow((*row.coefficients, Fraction(0)), row.bound, row.equation) for row in base.rows), *at_most),
-    )
-    outcome = solve(wider, [(*cost, Fraction(0)), unit[-1], *unit[:-1]])
-    return Chosen(axis, base, cost, narrowed(outcome, len(wider.rows), base))
+    cost, lower, zero = objective(given), lower_of(given, axis), Fraction(0)
+    unit = [tuple(Fraction(int(i == j)) for i in range(len(cost) + 1)) for j in range(len(cost) + 1)]
+    signed = [(side, j) for side in (1, -1) for j in range(len(cost)) if side > 0 or lower[j] < 0]
+    rows = [widened(row, len(cost) + 1) for row in rows_of(given, axis)]
+    for side, j in signed:
+        rows.append((Quadratic.linear((*(side * v for v in unit[j][:-1]), Fraction(-1))), FormRelation.LE))
+    wider = linear_program((*variables(given, axis), f"{axis.name}max"), (*cost, zero), rows, (*lower, zero))
+    return Chosen(axis, solve(wider, [unit[-1], *unit[:-1]]).narrowed(program(given, axis)))
+
+
+def widened(row: Row, size: int, before: int = 0) -> Row:
+    """The same row in more variables, with so many of them before its own."""
+    form, relation = row
+    after = size - before - form.size
+    gradient = (*(Fraction(0),) * before, *form.gradient, *(Fraction(0),) * after)
+    return Quadratic.linear(gradient, form.constant), relation
 
 
 def lowest(given: Task, axis: Axis, t: Fraction) -> Values | None:
     """Among the solutions of (4) with the least sum one that is lowest at ``t``: what (4) allows just as well."""
-    height = weights_at(given.degree, t)[1:-1]
-    outcome = solve(program(given, axis), [objective(given), height])
-    return None if isinstance(outcome, Contradiction) else (axis.start, *outcome.point, axis.goal)
+    return Chosen(axis, solve(program(given, axis), [weights_at(given.degree, t)[1:-1]])).values
 
 
 def curve(given: Task, values: Mapping[str, Values]) -> Bezier:

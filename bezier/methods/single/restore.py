@@ -18,13 +18,14 @@ from bezier.input.task import Axis, Task, Values
 from bezier.methods.control.optimal_path import restored
 from bezier.methods.control.terms import member
 from bezier.methods.single import plan
-from bezier.methods.single.closed import NoCurve, ProvedCurve, plain_program
+from bezier.methods.single.closed import NoCurve, ProvedCurve
 from bezier.methods.single.cuts import Cut, CutKind, Model
-from bezier.methods.single.program import Chosen, curve, dips, objective, program
-from bezier.methods.single.simplex import Contradiction, LinearOptimum, LinearProgram, certificate
+from bezier.methods.single.program import Chosen, curve, dips, program
+from bezier.methods.single.simplex import Solution
 from bezier.paths.path import prove
 from bezier.plans import Stated
 from bezier.problem import Problem
+from qe.convex.system import ConvexSystem
 from qe.errors import CertificateRejected
 from qe.proof.certificate import Certificate
 
@@ -53,25 +54,19 @@ def restore(problem: Problem, evidence: Certificate, stated: Stated) -> plan.Sin
 
 def _chosen(given: Task, axis: Axis, label: str, evidence: Certificate) -> Chosen:
     """Problem (4) of an axis with the answer in its certificate."""
-    base, cost = program(given, axis), objective(given)
-    return Chosen(axis, base, cost, _outcome(base, cost, label, evidence))
+    return Chosen(axis, _outcome(program(given, axis), label, evidence))
 
 
-def _outcome(base: LinearProgram, cost: Values, label: str, evidence: Certificate) -> LinearOptimum | Contradiction:
+def _outcome(program: ConvexSystem, label: str, evidence: Certificate) -> Solution:
     """The outcome in the certificate with this label, which has to be about this program."""
     payload: Any = member(evidence, label, "multipliers").evidence_for("multipliers")
-    status = payload["status"]
-    if status not in ("optimal", "infeasible"):
+    if payload["status"] not in ("optimal", "infeasible"):
         raise CertificateRejected(f"{label}: status", "expected an optimum or a contradiction")
-    numbers = _numbers(payload["multipliers"], label)
-    outcome: LinearOptimum | Contradiction = Contradiction(numbers)
-    if status == "optimal":
-        point = _numbers(payload["point"], label)
-        if len(point) != len(cost):
-            raise CertificateRejected(f"{label}: point", f"expected {len(cost)} numbers")
-        value = sum((c * x for c, x in zip(cost, point, strict=True)), Fraction(0))
-        outcome = LinearOptimum(value, point, numbers)
-    expected: Any = certificate(base, cost, outcome).evidence_for("multipliers")
+    point, numbers = (_numbers(payload[key], label) for key in ("point", "multipliers"))
+    if len(point) != len(program.names):
+        raise CertificateRejected(f"{label}: point", f"expected {len(program.names)} numbers")
+    outcome = Solution(program, point, numbers, payload["status"] == "optimal")
+    expected: Any = outcome.certificate.evidence_for("multipliers")
     for key in expected:
         if payload.get(key) != expected[key]:
             raise CertificateRejected(f"{label}: {key}", "not the one of this problem")
@@ -87,7 +82,7 @@ def _numbers(rows: Any, label: str) -> Values:
 
 def _printed(problem: Problem, given: Task, chosen: tuple[Chosen, ...], evidence: Certificate) -> plan.Printed | None:
     """The curve of (4), and the other curve with the same sums that the certificates hold."""
-    if any(isinstance(item.outcome, Contradiction) for item in chosen):
+    if not all(item.outcome.optimal for item in chosen):
         return None
     others = [_chosen(given, item.axis, plan.lowest_label(item.axis.name), evidence) for item in chosen]
     lower = {item.axis.name: item.values for item in others if item.values is not None}
@@ -108,13 +103,12 @@ def _closed(
     model = Model.of(given, problem.workspace)
     listed = enumerate(stored.entry(stated.summary, "cuts", list, "summary.json: "))
     cuts = tuple(_cut(model, item, f"summary.json: cuts[{i}]") for i, item in listed)
-    base, cost = plain_program(model, cuts)
     try:
-        outcome = _outcome(base, cost, plan.CLOSED, evidence)
+        outcome = _outcome(model.plain_program(cuts), plan.CLOSED, evidence)
     except CertificateRejected as error:
         raise CertificateRejected(f"certificate.json and summary.json, cuts: {error.step}", error.reason) from None
-    proof = certificate(base, cost, outcome)
-    if isinstance(outcome, Contradiction):
+    proof = outcome.certificate
+    if not outcome.optimal:
         return NoCurve(cuts, proof, 0), ""
     entry = stored.entry(stated.summary, "closed", dict, "summary.json: ")
     rounds, attainable = entry.get("rounds"), entry.get("attainable")

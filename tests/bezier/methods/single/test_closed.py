@@ -21,8 +21,11 @@ from bezier.methods.single.closed import TOLERANCE, NoCurve, ProvedCurve, close
 from bezier.methods.single.cuts import CutKind, Model, violated
 from bezier.methods.single.formula import VALUE
 from bezier.methods.single.program import choose, curve, dips, weights_at
-from bezier.methods.single.simplex import Contradiction, LinearOptimum, LinearProgram, LinearRow, certificate, solve
-from qe.errors import InputError, InternalError, Unable
+from bezier.methods.single.simplex import linear_program, solve
+from qe.convex.system import ConvexSystem
+from qe.errors import InputError, Unable
+from qe.exact.quadratic_form import Quadratic
+from qe.proof.multipliers import FormRelation
 from tests.bezier.made import FLAT, axis, stays, tasks, unit_task
 from tests.tables import each
 
@@ -77,8 +80,7 @@ def test_no_cut_excludes_a_curve(given_task, ratio):
         return
     assert isinstance(outer, ProvedCurve)
     point = [v for of in given_task.raised for v in inner.values[of.name][1:-1]]
-    for row in Model.of(given_task, workspace).program(outer.cuts).rows:
-        assert row.at([*point, F(0)]) <= 0
+    assert is_point_of(Model.of(given_task, workspace).program(outer.cuts), (*point, F(0)))
 
 
 def check_against_elimination(given_task, ratio):
@@ -207,99 +209,93 @@ def test_speed():
 NUMBER = st.fractions(-3, 3, max_denominator=3)
 
 
+def row(gradient, bound, equation=False):
+    """gradient . x <= bound, or = bound."""
+    return Quadratic.linear(gradient, -bound), FormRelation.EQ if equation else FormRelation.LE
+
+
 @st.composite
 def programs(draw):
-    """A small program with an objective; equations, repeated rows and zero rows included."""
+    """A small program; equations, repeated rows and zero rows included."""
     size = draw(st.integers(1, 5))
     numbers = st.tuples(*[NUMBER] * size)
-    rows = draw(st.lists(st.builds(LinearRow, numbers, NUMBER, st.booleans()), max_size=6))
+    rows = draw(st.lists(st.builds(row, numbers, NUMBER, st.booleans()), max_size=6))
     if rows and draw(st.booleans()):
         rows.append(draw(st.sampled_from(rows)))
-    names = tuple(f"x{i}" for i in range(size))
-    return LinearProgram(names, draw(numbers), tuple(rows)), draw(numbers)
+    return linear_program([f"x{i}" for i in range(size)], draw(numbers), rows, draw(numbers))
 
 
-def numerically(program, cost):
+def numerically(program):
     """The same by a floating-point solver."""
 
-    def part(equation):
-        rows = [row for row in program.rows if row.equation is equation]
-        return (
-            ([list(map(float, row.coefficients)) for row in rows], [float(row.bound) for row in rows])
-            if rows
-            else (
-                None,
-                None,
-            )
-        )
+    def part(relation):
+        forms = [f for f, r in zip(program.forms, program.relations, strict=True) if r is relation]
+        return ([list(map(float, f.gradient)) for f in forms] or None, [-float(f.constant) for f in forms] or None)
 
-    (upper, bounds), (equal, values) = part(False), part(True)
-    limits = [(float(low), None) for low in program.lower]
-    return linprog(list(map(float, cost)), upper, bounds, equal, values, limits)
+    free = [(None, None)] * len(program.names)
+    return linprog(
+        list(map(float, program.objective.gradient)), *part(FormRelation.LE), *part(FormRelation.EQ), bounds=free
+    )
 
 
 def is_point_of(program, x):
     """Whether x satisfies every row and lower bound, exactly."""
-    rows = all(row.at(x) == 0 if row.equation else row.at(x) <= 0 for row in program.rows)
-    return rows and all(v >= low for v, low in zip(x, program.lower, strict=True))
+    values = [(form.value(x), r) for form, r in zip(program.forms, program.relations, strict=True)]
+    return all(value == 0 if r is FormRelation.EQ else value <= 0 for value, r in values)
+
+
+ONE, NONE = Fraction(1), Fraction(0)
 
 
 @given(programs())
-@example((LinearProgram(("x",), (Fraction(0),), (LinearRow((Fraction(0),), Fraction(1), True),)), (Fraction(1),)))
-@example((LinearProgram(("x",), (Fraction(0),), (LinearRow((Fraction(1),), Fraction(-1)),)), (Fraction(1),)))
-def test_answers_are_proved_and_agree_with_a_numerical_solver(case):
-    program, cost = case
-    numerical = numerically(program, cost)
+@example(linear_program(["x"], (ONE,), [row((NONE,), ONE, True)], (NONE,)))
+@example(linear_program(["x"], (ONE,), [row((ONE,), -ONE)], (NONE,)))
+def test_answers_are_proved_and_agree_with_a_numerical_solver(program):
+    numerical = numerically(program)
     try:
-        found = solve(program, [cost])
+        found = solve(program)
     except Unable:
         assert numerical.status in (3, 4)
         return
-    assert qe.verify(certificate(program, cost, found)).accepted
-    if isinstance(found, Contradiction):
+    assert qe.verify(found.certificate).accepted
+    if not found.optimal:
         assert numerical.status in (2, 4)
         return
     assert is_point_of(program, found.point)
-    assert found.value == sum(c * x for c, x in zip(cost, found.point, strict=True))
     assert numerical.status == 0 and abs(numerical.fun - float(found.value)) < 1e-7
 
 
 @given(programs(), st.lists(NUMBER, min_size=5, max_size=5))
-def test_the_second_objective_decides_among_the_minima_of_the_first(case, second):
-    program, cost = case
-    second = second[: len(cost)]
+def test_the_second_objective_decides_among_the_minima_of_the_first(program, second):
+    other = Quadratic.linear(second[: len(program.names)])
     try:
-        found = solve(program, [cost, second])
-        first = solve(program, [cost])
+        found, first = solve(program, [other.gradient]), solve(program)
     except Unable:
         return
-    if isinstance(found, Contradiction):
-        assert isinstance(first, Contradiction)
-        return
-    assert found.value == first.value and is_point_of(program, found.point)
-    fixed = LinearProgram(program.names, program.lower, (*program.rows, LinearRow(cost, first.value, True)))
-    best = solve(fixed, [second])
-    assert best.value == sum(c * x for c, x in zip(second, found.point, strict=True))
+    assert found.optimal is first.optimal
+    if found.optimal:
+        assert found.value == first.value and is_point_of(program, found.point)
+        forms = *program.forms, Quadratic.linear(program.objective.gradient, -first.value)
+        relations = *program.relations, FormRelation.EQ
+        best = solve(ConvexSystem(program.names, other, forms, relations))
+        assert best.value == other.value(found.point)
 
 
 def test_the_example_on_which_other_pivot_rules_cycle():
     """Beale (1955): degenerate at the origin; the largest-coefficient rule comes back to it for ever."""
-    rows = (
-        LinearRow(tuple(map(Fraction, ("1/4", "-8", "-1", "9"))), Fraction(0)),
-        LinearRow(tuple(map(Fraction, ("1/2", "-12", "-1/2", "3"))), Fraction(0)),
-        LinearRow(tuple(map(Fraction, (0, 0, 1, 0))), Fraction(1)),
-    )
-    program = LinearProgram(("a", "b", "c", "d"), (Fraction(0),) * 4, rows)
-    found = solve(program, [tuple(map(Fraction, ("-3/4", "20", "-1/2", "6")))])
+    rows = [
+        row(tuple(map(Fraction, ("1/4", "-8", "-1", "9"))), NONE),
+        row(tuple(map(Fraction, ("1/2", "-12", "-1/2", "3"))), NONE),
+        row(tuple(map(Fraction, (0, 0, 1, 0))), ONE),
+    ]
+    cost = tuple(map(Fraction, ("-3/4", "20", "-1/2", "6")))
+    found = solve(linear_program("abcd", cost, rows, (NONE,) * 4))
     assert found.value == Fraction(-5, 4) and found.point == (1, 0, 1, 0)
 
 
 def test_altered_proofs_are_rejected():
-    program = LinearProgram(
-        ("x", "y"), (Fraction(0), Fraction(0)), (LinearRow((Fraction(-1), Fraction(-2)), Fraction(-3)),)
-    )
-    cost = (Fraction(1), Fraction(1))
-    good = certificate(program, cost, solve(program, [cost]))
+    rows = [row((Fraction(-1), Fraction(-2)), Fraction(-3))]
+    good = solve(linear_program("xy", (ONE, ONE), rows, (NONE, NONE))).certificate
     assert qe.verify(good).accepted
     for key, place, value in (("multipliers", 0, ["1/3"]), ("point", 0, ["1"])):
         changed = copy.deepcopy(good.payload)
@@ -309,21 +305,14 @@ def test_altered_proofs_are_rejected():
 
 
 def test_an_objective_without_bound_is_refused():
-    program = LinearProgram(("x",), (Fraction(0),), ())
     with pytest.raises(Unable, match="without bound"):
-        solve(program, [(Fraction(-1),)])
-    assert isinstance(solve(program, [(Fraction(1),)]), LinearOptimum)
-
-
-def test_rows_of_different_lengths_are_refused():
-    with pytest.raises(InternalError):
-        LinearProgram(("x",), (Fraction(0),), (LinearRow((), Fraction(0)),))
+        solve(linear_program("x", (-ONE,), [], (NONE,)))
+    assert solve(linear_program("x", (ONE,), [], (NONE,))).optimal
 
 
 def test_the_limit_stops_the_simplex_method():
     def stop():
         raise Unable("stopped")
 
-    program = LinearProgram(("x",), (Fraction(0),), (LinearRow((Fraction(-1),), Fraction(-1)),))
     with pytest.raises(Unable, match="stopped"):
-        solve(program, [(Fraction(1),)], check=stop)
+        solve(linear_program("x", (ONE,), [row((-ONE,), -ONE)], (NONE,)), check=stop)

@@ -13,9 +13,9 @@ from bezier.methods.single.closed import NoCurve, close
 from bezier.methods.single.cuts import Model
 from bezier.methods.single.method import SINGLE
 from bezier.methods.single.plan import CLOSED, PIECEWISE_DEGREE, _least_sums, task_of
-from bezier.methods.single.program import choose, curve
+from bezier.methods.single.program import choose, curve, lower_of, objective, rows_of
 from bezier.methods.single.restore import certified_curve
-from bezier.methods.single.simplex import certificate, solve
+from bezier.methods.single.simplex import linear_program, solve
 from bezier.planner.outputs import facts, path_json, write_data
 from bezier.planner.planning import make_plan
 from bezier.plans import Outcome, Stated
@@ -188,7 +188,7 @@ def test_a_linear_program_of_another_problem_is_rejected(plans, label):
     higher = replace(task, axes=(replace(task.axes[0], height=F(3, 2)), task.axes[1]))
     chosen = choose(higher, higher.axes[0])
     other = {
-        "problem (4) for y": certificate(chosen.program, chosen.objective, chosen.outcome),
+        "problem (4) for y": chosen.outcome.certificate,
         CLOSED: close(task, replace(workspace, radius_squared=F(10))).certificate,
     }
     swapped = [(name, other[label] if name == label else member) for name, member in members(plan)]
@@ -214,10 +214,10 @@ def test_an_altered_curve_is_rejected(point, axis, value, plans):
 
 def test_curves_that_meet_the_equations_of_4_alone_are_rejected(plans):
     plan = plans["single"]
-    task, chosen = plan.task, plan.chosen[0]
-    lower = replace(chosen.program, lower=tuple(low - 1 for low in chosen.program.lower))
-    below = solve(lower, [chosen.objective]).point
-    bound = {"y": (task.axes[0].start, *below, task.axes[0].goal), "z": plan.chosen[1].values}
+    task, of = plan.task, plan.task.axes[0]
+    lower = tuple(low - 1 for low in lower_of(task, of))
+    below = solve(linear_program("abcde", objective(task), rows_of(task, of), lower)).point
+    bound = {"y": (of.start, *below, of.goal), "z": plan.chosen[1].values}
     for drawn, message in (
         (curve(task, bound), "do not satisfy"),
         (plan.printed.lowest, "below the height at t = 1/2"),
