@@ -75,7 +75,7 @@ def best_within(
     if (broken := keeps_limits(chain, solved.curves(point))) or any(row.form.value(point) > 0 for row in rows):
         raise Unable(f"no chain was seen to keep the bounds: {broken or 'conditions are broken'}")
     varying = [row for row in outer if not row.form.is_constant]
-    proposal = proposals.least_value(chain, solved.size, varying, objective_form(chain, solved))
+    proposal = proposals.best(chain, solved.size, varying, objective_form(chain, solved))
     nothing = (_ZERO,) * len(varying)
     for weights in (*proof.rational_weights(proposal.weights), nothing) if proposal is not None else ():
         named = {row.label: w for w, row in zip(weights, varying, strict=True) if w}
@@ -152,7 +152,7 @@ def _shortest(
     """Where these vectors are nearly shortest in all, in floating point."""
     varying, near = [row for row in rows if not row.form.is_constant], tuple(point)
     for _ in range(_ROUNDS):
-        proposal = proposals.least_value(chain, solved.size, varying, _majorant(legs, near, _ZERO).form)
+        proposal = proposals.best(chain, solved.size, varying, _majorant(legs, near, _ZERO).form)
         if proposal is None:
             break
         near = proof.rounded_point(chain, proposal.point, 50)
@@ -225,9 +225,9 @@ def _bent_less(
     for _ in range(_STEPS):
         near = [_near(i, u, Fraction(reach).limit_denominator(_PLACES)) for i, u in enumerate(point)]
         bent = [*varying, *_linearised(chain, solved, point, most), *near]
-        proposal = proposals.least_excess(chain, size, bent)
+        proposal = proposals.best(chain, size, bent)
         if proposal is not None and proposal.excess < 0:
-            proposal = proposals.least_value(chain, size, bent, objective)
+            proposal = proposals.best(chain, size, bent, objective)
         if proposal is None:
             break
         other = proof.rounded_point(chain, proposal.point, 50)

@@ -89,7 +89,7 @@ def decided(chain: Chain, solved: Solved, rows: Sequence[Requirement]) -> tuple[
     varying = [row for row in rows if not row.form.is_constant]
     if not varying:
         return ((_ZERO,) * d,) * size
-    proposal = proposals.least_excess(chain, size, varying)
+    proposal = proposals.best(chain, size, varying)
     if proposal is not None:
         for places in _PLACES if proposal.excess < 0 else ():
             free = rounded_point(chain, proposal.point, places)
@@ -163,7 +163,7 @@ def best(
     if lowest is not None and all(row.form.value(lowest[0]) <= 0 for row in rows):
         return bounded(chain, solved, rows, lowest[0], {})
     varying = [row for row in rows if not row.form.is_constant]
-    proposal = proposals.least_value(chain, size, varying, objective)
+    proposal = proposals.best(chain, size, varying, objective)
     if proposal is None:
         raise Unable("no optimum was proposed")
     points = list(near_optimum(chain, proposal, inside, varying, objective))
@@ -306,7 +306,7 @@ def near_optimum(
     one on the way from the proposal to the inside."""
     size = len(inside)
     for share in _SMALLER:
-        near = proposals.least_value(chain, size, [narrower(row, share) for row in rows], objective)
+        near = proposals.best(chain, size, [narrower(row, share) for row in rows], objective)
         free = rounded_point(chain, near.point, 50) if near is not None else ()
         if free and all(row.form.value(free) <= 0 for row in rows):
             yield free

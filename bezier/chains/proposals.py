@@ -28,18 +28,9 @@ class Proposal:
     excess: float = 0.0
 
 
-def least_excess(chain: Chain, size: int, rows: Sequence[Requirement]) -> Proposal | None:
-    """The smallest t such that all conditions hold with balls and half-spaces larger by t. None where clarabel gives
-    up."""
-    return _solved(chain, size, rows, None)
-
-
-def least_value(chain: Chain, size: int, rows: Sequence[Requirement], objective: Form) -> Proposal | None:
-    """The point where the objective is least, with multipliers."""
-    return _solved(chain, size, rows, objective)
-
-
-def _solved(chain: Chain, size: int, rows: Sequence[Requirement], objective: Form | None) -> Proposal | None:
+def best(chain: Chain, size: int, rows: Sequence[Requirement], objective: Form | None = None) -> Proposal | None:
+    """The point where the objective is least, with multipliers; without an objective the smallest t such that all
+    conditions hold with balls and half-spaces larger by t. None where clarabel gives up."""
     with wanted():
         from bezier.conic import Conic
     d, unit = chain.dimension, max(abs(float(c)) for p in chain.points for c in p)

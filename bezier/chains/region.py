@@ -97,7 +97,7 @@ class Places:
         size, objective = self.solved.size, linear_form(tuple(-c for c in normal), self.place)
         if not any(row.squares for row in self.rows):
             return self._vertex(normal, objective)
-        proposal = proposals.least_value(self.chain, size, self.rows, objective)
+        proposal = proposals.best(self.chain, size, self.rows, objective)
         if proposal is None:
             raise Unable("no farthest place was proposed")
         multipliers = rational_weights(proposal.weights)

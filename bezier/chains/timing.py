@@ -56,10 +56,10 @@ def _value(chain: Chain, times: Sequence[float]) -> float:
     lowest = objective.minimum(solved.size, chain.dimension)
     if lowest is not None and all(row.form.value(lowest[0]) <= 0 for row in rows):
         return float(lowest[1])
-    excess = proposals.least_excess(other, solved.size, varying) if varying else None
+    excess = proposals.best(other, solved.size, varying) if varying else None
     if excess is None or excess.excess > 0:
         return 1e12 * (1 + (1e3 if excess is None else excess.excess))
-    proposal = proposals.least_value(other, solved.size, varying, objective)
+    proposal = proposals.best(other, solved.size, varying, objective)
     if proposal is None:
         return 1e12
     return float(objective.value(tuple(tuple(map(Fraction, p)) for p in proposal.point)))

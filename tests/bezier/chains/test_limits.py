@@ -99,7 +99,7 @@ def test_a_witness_that_is_none_is_refused_where_a_bound_has_to_be_kept() -> Non
 
 
 def test_a_broken_proposer_breaks_no_bound(monkeypatch: pytest.MonkeyPatch) -> None:
-    honest, chance = proposals._solved, np.random.default_rng(7)
+    honest, chance = proposals.best, np.random.default_rng(7)
 
     def broken(*given: Any) -> Any:
         answer = honest(*given)
@@ -110,7 +110,7 @@ def test_a_broken_proposer_breaks_no_bound(monkeypatch: pytest.MonkeyPatch) -> N
             point, tuple(w * float(chance.choice([1, 1, 0, -1, 9])) for w in answer.weights), -1.0
         )
 
-    monkeypatch.setattr(proposals, "_solved", broken)
+    monkeypatch.setattr(proposals, "best", broken)
     accepted = 0
     for k in range(3):
         most = 6.9 + k / 50

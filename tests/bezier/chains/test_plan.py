@@ -112,19 +112,16 @@ def honest_chains() -> tuple[Any, Any]:
 @each(*range(8), daily=2)
 def test_a_broken_proposer_never_proves_anything_false(seed: int, monkeypatch: pytest.MonkeyPatch) -> None:
     chance, right = random.Random(seed), honest_chains()
-    honest = {"least_excess": proposals.least_excess, "least_value": proposals.least_value}
+    honest = proposals.best
 
-    def broken(name: str) -> Any:
-        def proposal(*given: Any, **named: Any) -> Any:
-            answer = honest[name](*given, **named)
-            point = tuple(tuple(c + chance.choice((0, 0, 1, -3)) for c in p) for p in answer.point)
-            weights = tuple(w * chance.choice((0, 1, 1, 7, -1)) for w in answer.weights)
-            return replace(answer, point=point, weights=weights, excess=answer.excess * chance.choice((1, -1)))
+    def broken(*given: Any, **named: Any) -> Any:
+        answer = honest(*given, **named)
+        assert answer is not None
+        point = tuple(tuple(c + chance.choice((0, 0, 1, -3)) for c in p) for p in answer.point)
+        weights = tuple(w * chance.choice((0, 1, 1, 7, -1)) for w in answer.weights)
+        return replace(answer, point=point, weights=weights, excess=answer.excess * chance.choice((1, -1)))
 
-        return proposal
-
-    for name in honest:
-        monkeypatch.setattr(proposals, name, broken(name))
+    monkeypatch.setattr(proposals, "best", broken)
     for known, points, radius in zip(right, (PLANE, CROWDED), (6, "13/2"), strict=True):
         try:
             found = chain(points, radius=radius)
@@ -211,7 +208,7 @@ def test_slopes_and_distances_are_those_of_the_convex_problem() -> None:
     given = chain(CROWDED, radius="6.6", half_spaces=[([0, 0, 1], -4)]).chain
     start, step = proposals.loosened(given), 1e-4
     rows = requirements(given, given.solved)
-    known = proposals.least_excess(given, given.solved.size, [row for row in rows if not row.form.is_constant])
+    known = proposals.best(given, given.solved.size, [row for row in rows if not row.form.is_constant])
     assert start is not None and known is not None and start.excess > 0
     assert start.excess == pytest.approx(known.excess, abs=1e-6)
     for k, name in enumerate(given.paces):

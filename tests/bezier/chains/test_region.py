@@ -128,7 +128,7 @@ def test_regions_in_space_and_of_infeasible_chains() -> None:
 
 def test_a_broken_proposer_gives_no_wrong_region(monkeypatch: pytest.MonkeyPatch) -> None:
     right = chain(PLANE[:4], radius=6).region("start", Fraction(1, 10))
-    honest, chance = proposals._solved, random.Random(5)
+    honest, chance = proposals.best, random.Random(5)
 
     def broken(*given: Any) -> Any:
         answer = honest(*given)
@@ -138,7 +138,7 @@ def test_a_broken_proposer_gives_no_wrong_region(monkeypatch: pytest.MonkeyPatch
         )
 
     made = chain(PLANE[:4], radius=6)
-    monkeypatch.setattr(proposals, "_solved", broken)
+    monkeypatch.setattr(proposals, "best", broken)
     for _ in range(3):
         try:
             found = made.region("start", Fraction(1, 2))
