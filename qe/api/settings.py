@@ -93,7 +93,7 @@ _RACE = Setting(
 _ANYTIME = Setting(
     False,
     "at the time limit, report where the formula is known to be true, where false, and what is open, as formulas in "
-    "the free variables: Answer.partial, with check under a certificate",
+    "the free variables; in Python Answer.partial, with check under a certificate",
 )
 
 

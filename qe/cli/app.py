@@ -80,7 +80,7 @@ def find(
     format: InputFormat = None,
     **settings: Any,
 ) -> int:
-    """Print exact points that satisfy FORMULA, one a line; none where there are none."""
+    """Print exact points that satisfy FORMULA, one a line; the word none where there is no point."""
     from qe.cli import points
 
     return answered(partial(points.find, n=n, seed=seed), formula, format, settings)
