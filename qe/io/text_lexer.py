@@ -74,6 +74,7 @@ CHOICE If ITE ite
 ELEMENT Element
 PIECEWISE Piecewise
 """)
+_NO_PRODUCTS = frozenset(map(str.lower, (*KEYWORDS, *FUNCTIONS, *CONSTANTS)))
 SIMPLIFIERS = ("FullSimplify", "Simplify", "Refine")
 COMMANDS = ("Resolve", "Reduce", "Solve", "FindInstance", "CylindricalDecomposition", *SIMPLIFIERS)
 """Commands of Mathematica around a formula and, perhaps, variables and Reals."""
@@ -357,21 +358,20 @@ class State:
         number alone and its letters elsewhere: ``x^2 - 2mx + m > 0``.
 
         Behind a division it stays a name."""
-        if len(name) == 1 or not name.isalpha() or self.header or self.brackets[-1].divided or name in self.bound:
-            return False
-        if name in CONSTANTS or name.lower() in (*KEYWORDS, *FUNCTIONS):
+        if len(name) == 1 or self.header or not name.isalpha() or name in self.bound or name.lower() in _NO_PRODUCTS:
             return False
         if self.words is None:
             self.words, self.alone = (Counter(re.findall(one, self.text)) for one in (WORD, rf"(?<!\w){WORD}"))
             self.names = Counter() if "*" in self.text else self.words
         factor = self.last == "NUMBER" and self.end == at and not self.alone[name]
         lone = [letter for letter in self.letters if self.words[letter] == 1]
-        if not is_product(name, self.words if factor else self.names, lone):
-            strange = [letter for letter in name if letter not in self.names]
-            if len(strange) != 1 or self.letters.isdisjoint(name) or self.text.startswith("(", at + len(name)):
-                return False
-        self.products.add(name)
-        return True
+        strange = [letter for letter in name if letter not in self.names]
+        called = self.text.startswith("(", at + len(name))
+        almost = len(strange) == 1 and not called and not self.letters.isdisjoint(name)
+        product = almost or is_product(name, self.words if factor else self.names, lone)
+        is_meant = product and not self.brackets[-1].divided
+        self.products.update((name,) if is_meant else ())
+        return is_meant
 
     def prefix(self, value: str, at: int) -> Iterator[Token]:
         """``(E x, y)``, as in front of a formula in brackets."""
