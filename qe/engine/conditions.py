@@ -171,20 +171,12 @@ def polyhedron(problem: Block, options: Options) -> str | None:
     return f"{kind} {len(problem.variables)} variables"
 
 
-def curved_inequalities(problem: Block, options: Options) -> str | None:
-    """A sentence in at least ``CONVEX_FROM`` variables, not linear, in which no conjunct is an equation."""
-    if len(problem.variables) < CONVEX_FROM or not problem.is_flat or problem.free or not problem.curved:
-        return None
-    if any(isinstance(part, Atom) and part.relation is Relation.EQ for part in problem.conditions):
-        return None
-    return f"inequalities in {len(problem.variables)} variables"
-
-
 def curved_in_many_variables(problem: Block, options: Options) -> str | None:
-    """A sentence in at least ``MANY_FROM`` variables, not linear."""
-    if len(problem.variables) < MANY_FROM or not problem.is_flat or problem.free or not problem.curved:
+    """A sentence, not linear, in ``CONVEX_FROM`` variables or more, ``MANY_FROM`` where a conjunct is an equation."""
+    equations = any(isinstance(part, Atom) and part.relation is Relation.EQ for part in problem.conditions)
+    if len(problem.variables) < (MANY_FROM if equations else CONVEX_FROM) or not problem.curved:
         return None
-    return f"{len(problem.variables)} variables"
+    return f"{len(problem.variables)} variables" if problem.is_flat and not problem.free else None
 
 
 def _falls_apart(problem: Block) -> bool:

@@ -120,8 +120,10 @@ class _Position:
                 self.scale_all()
             for block in self.blocks:
                 for x in block:
-                    for y in (None, *(y for y in block if y != x)):
-                        self.shift(x, y)
+                    places = [k for k, p in enumerate(self.polys) if p.degree(x)]
+                    beside = {y for k in places for y in self.polys[k].variables}  # no other one proposes a number
+                    for y in (None, *(y for y in block if y != x and y in beside)):
+                        self.shift(x, y, places)
             self.scale_all()
             if len(self.steps) == before:
                 break
@@ -134,19 +136,19 @@ class _Position:
     def centre(self) -> None:
         """A new origin for all variables at once, as all polynomials propose together, or one of them; or the same
         number for all, which differences do not notice."""
-        linear, curved = ([self.terms(p) for p in self.polys if (p.total_degree > 1) is one] for one in (False, True))
+        linear, curved = ([p for p in self.polys if (p.total_degree > 1) is one] for one in (False, True))
         proposed: list[Sequence[Solve]] = []
         alike: Counter[Fraction] = Counter()
-        for chosen in (curved, *([terms] for terms in curved), linear):
-            numbers = [(x, c) for x in self.variables for c in _numbers(chosen, x, None)[:1]]
+        for chosen in (curved, *([poly] for poly in curved), linear):
+            terms, among = [self.terms(p) for p in chosen], {x for p in chosen for x in p.variables}
+            numbers = [(x, c) for x in self.variables if x in among for c in _numbers(terms, x, None)[:1]]
             proposed.append([self.step(x, None, c) for x, c in numbers])
             alike.update(c for _, c in numbers)
         proposed += [[self.step(x, None, c) for x in self.variables] for c, _ in alike.most_common(_TRIED)]
         self.take_best([steps for steps in proposed if len(steps) > 1], range(len(self.polys)))
 
-    def shift(self, x: int, y: int | None) -> None:
-        """x = x' - c*y, or x' - c, for the best number c."""
-        places = [k for k, p in enumerate(self.polys) if p.degree(x)]
+    def shift(self, x: int, y: int | None, places: Sequence[int]) -> None:
+        """x = x' - c*y, or x' - c, for the best number c, by the polynomials at ``places``, in which x is."""
         numbers = _numbers([self.terms(self.polys[k]) for k in places], x, y)
         self.take_best([[self.step(x, y, c)] for c in numbers], places)
 
@@ -160,10 +162,12 @@ class _Position:
         if not proposed:
             return
         best: Sequence[Solve] = ()
-        most = (1 - self.gain) * sum(_length(self.polys[k]) for k in places)
+        polys = [(p, _length(p), set(p.variables)) for p in (self.polys[k] for k in places)]
+        most = (1 - self.gain) * sum(size for _, size, _ in polys)
         for steps in proposed:
             self.watch()
-            length = sum(_length(reduce(_image, steps, self.polys[k])) for k in places)
+            moved = {self.ring.index[step.variable] for step in steps}
+            length = sum(size if moved.isdisjoint(own) else _length(reduce(_image, steps, p)) for p, size, own in polys)
             if length < most:
                 best, most = steps, length
         self.take(best)
