@@ -16,12 +16,13 @@ from qe.elimination.protocol import Context, Outcome
 from qe.engine.constant import Start
 from qe.engine.reductions import gathered_block, lifted_values, to_dual
 from qe.engine.strategy import SPARE, Attempt, Scope, Spare, alone, attempts, chosen_alone, complete
-from qe.errors import Unable
+from qe.errors import Contradiction, Unable
 from qe.exact.number import Values
 from qe.exact.ring import Ring
 from qe.formula.block import Block
 from qe.formula.build import conj, convert, disj, exists, forall, neg
 from qe.formula.counting import without_root_atoms
+from qe.formula.evaluate import holds_at
 from qe.formula.normal import nnf, rename_apart, without_clashes
 from qe.formula.syntax import FALSE, TRUE, And, Constant, Formula, Not, Or
 from qe.formula.traverse import bound_variables, subformulas
@@ -32,6 +33,9 @@ from qe.proving.certificates import certificate_of
 from qe.rules.preparation import Prepared, prepare
 from qe.rules.step import steps_without
 from qe.simplifier.simplify import simplify
+
+MOST_TRIED = 200
+"""Variables of a block whose values are tried: each condition of many takes time that grows with their number."""
 
 
 def solve(formula: Formula, options: Options, budget: Budget) -> Outcome:
@@ -84,12 +88,11 @@ class _Run:
         """The answer; for sentences that begin with a quantifier also a witness or counterexample."""
         problem, mark = Block.of(question), self.log.mark()
         reduced = self.first_outcome(Scope.QUESTION, problem or Block((), question))
-        if reduced is not None:
-            return reduced  # which is an answer to a question, too: nothing is to be shortened
-        outcome = self.outcome_at_length(question, problem)
+        outcome = self.outcome_at_length(question, problem) if reduced is None else reduced
         if problem is not None and outcome.witness is not None:
-            values = {v: outcome.witness.get(v, Fraction(0)) for v in problem.variables}
-            outcome = replace(outcome, witness=values)
+            outcome = replace(outcome, witness=exhibited(problem, outcome.witness))
+        if reduced is not None:
+            return outcome  # which is an answer to a question, too: nothing is to be shortened
         made = outcome.certificate is not None or outcome.make is not None
         if made or outcome.shortest or isinstance(outcome.formula, Constant):
             return outcome
@@ -271,6 +274,16 @@ class _Run:
             formula = self.shortened(formula)
         simple = self.log.step("simplification", formula, simplify(formula, watch=self.budget.check))
         return outcome if simple == outcome.formula else replace(outcome, formula=simple)
+
+
+def exhibited(problem: Block, witness: Values) -> Values:
+    """The values for all variables of a block. Raises ``Contradiction`` where they do not show what they should."""
+    values = {v: witness.get(v, Fraction(0)) for v in problem.variables}
+    numbers = {v: value for v, value in values.items() if isinstance(value, Fraction)}
+    tried = problem.is_flat and not problem.free and len(values) == len(numbers) <= MOST_TRIED
+    if tried and holds_at(problem.body, numbers) == problem.universal:
+        raise Contradiction("the values that were found do not show the answer")
+    return values
 
 
 def outcome_for(question: Formula, options: Options, budget: Budget) -> Outcome:

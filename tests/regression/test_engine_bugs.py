@@ -11,9 +11,12 @@ import sympy
 
 import qe
 from qe import Guarantee, eliminate, equivalent
+from qe.engine.run import exhibited
+from qe.errors import Contradiction
 from qe.exact.fibre_stack import isolate_over
 from qe.exact.ring import Ring
 from qe.exact.sample import Point
+from qe.formula.block import Block
 from qe.formula.build import convert
 from qe.formula.evaluate import holds_at
 from qe.formula.syntax import FALSE
@@ -225,3 +228,13 @@ def test_points_of_a_circle_apart_stay_apart() -> None:
     assert found is not None
     for p, q in combinations(names, 2):
         assert (found[f"{p}x"] - found[f"{q}x"]) ** 2 + (found[f"{p}y"] - found[f"{q}y"]) ** 2 >= 1
+
+
+@each("ex x, y. x*y /= 0", "all x, y. x*y = 0")
+def test_values_that_do_not_show_an_answer_are_given_to_nobody(text: str) -> None:
+    """A rule dropped a condition, and "false" came with a counterexample that was none."""
+    block = Block.of(read(text))
+    assert block is not None
+    assert exhibited(block, {"x": Fraction(1), "y": Fraction(2)}) == {"x": 1, "y": 2}
+    with pytest.raises(Contradiction):
+        exhibited(block, {"x": Fraction(1)})

@@ -9,11 +9,16 @@ from hypothesis import strategies as st
 
 import qe
 from qe.exact.ring import Poly, Ring
+from qe.formula.evaluate import holds_at
 from qe.formula.traverse import conjuncts
 from qe.io.text import read, read_polynomial
+from qe.options import Budget
 from qe.positivity import conditions
 from qe.positivity.conditions import conditions_of, positive_under
 from qe.positivity.identity import Positive
+from qe.rules.block_context import BlockContext
+from qe.rules.squares import known_signs
+from qe.rules.step import StepKind
 from tests.certificates.test_steps_by_hand import accepted
 from tests.tables import each
 from tests.unit.positivity.test_cone import steps_of
@@ -37,6 +42,32 @@ def test_sentences(left: str, where: str, right: str) -> None:
     text = f"all x, y, z. x > 0 and y > 0 and z > 0 and {where} -> {left} >= {right}"
     found = qe.eliminate(text, check=True, timeout=60)
     assert (found.truth, found.guarantee) == (True, qe.Guarantee.CHECKED)
+
+
+@each(
+    ("x*y*z >= 1 -> x + y + z <= x^2 + y^2 + z^2", True),
+    ("x*y*z >= 1 and x*y*z >= 1/2 -> x + y + z >= 3", True),
+    ("x*y + z^2 >= 1 and x^2 + y^2 + z^2 >= 1 -> x + y + z >= 1", True),
+    ("x*y + z^2 >= 1 and x^2 + y^2 + z^2 >= 1 -> x + y + z >= 3/2", False),
+)
+def test_a_condition_is_not_dropped_because_of_itself(sentence: str, truth: bool) -> None:
+    found = qe.eliminate(f"all x, y, z. x > 0 and y > 0 and z > 0 and {sentence}", check=True, timeout=60)
+    assert (found.truth, found.guarantee) == (truth, qe.Guarantee.CHECKED)
+
+
+@settings(deadline=None, max_examples=40, derandomize=True)
+@given(st.integers(0, 10**9))
+def test_random_conditions_are_never_dropped_for_each_other(seed: int) -> None:
+    """What the rule leaves has the truth value of the conditions wherever these signs of variables hold."""
+    rng = random.Random(seed)
+    forms = ("x*y*z", "x^2 + y^2 + z^2", "x*y + z^2", "x*y + y*z + z*x", "x^2*y + y^2*z + z^2*x")
+    chosen = [f"{form} {rng.choice(('>=', '>', '='))} {rng.randint(1, 3)}" for form in rng.sample(forms, 3)]
+    either = f"({rng.choice(chosen)} or {rng.choice(forms)} < {rng.randint(1, 9)})"
+    body = read(" and ".join(["x > 0", "y > 0", "z > 0", *chosen, either]))
+    found = known_signs(("x", "y", "z"), body, BlockContext(Budget(60), frozenset(StepKind)))
+    for _ in range(50 if found is not None else 0):
+        point = {v: Fraction(rng.randint(1, 9), rng.randint(1, 6)) for v in "xyz"}
+        assert holds_at(found.node.body, point) == holds_at(body, point)
 
 
 @settings(deadline=None, max_examples=60, derandomize=True)
