@@ -1,168 +1,217 @@
-"""Sums of squares of polynomials: a positive definite rational Gram matrix, found by a small semidefinite program.
+"""Sums of squares of polynomials: positive semidefinite rational Gram matrices, found by a small semidefinite program.
 
-p = b^T Q b with Q positive semidefinite, b polynomials, proves p >= 0; LDL^T of Q gives the squares. The matrices with
-p = b^T Q b are an affine space over Q; a point of it that is well inside the cone (found in floating point) stays
-inside when its coordinates are rounded, and the identity stays exact (after Peyrl, Parrilo 2008). A p with zeros has
-none inside: the polynomials b are those combinations of monomials that vanish at the zeros that are found.
+p = sum of m_k * b_k^T Q_k b_k, with matrices Q_k positive semidefinite, polynomials b_k and factors m_k that are
+nowhere negative, proves p >= 0; LDL^T of Q_k gives the squares. With x = y^2 for the variables that are not negative
+p is even in y, and its squares fall into classes by parity (Gatermann, Parrilo 2004, for these changes of sign): the
+m_k are products of such variables. The matrices are an affine space over Q; a point of it that is well inside the
+cones (found in floating point) stays inside when its free entries are rounded, and the identity stays exact (after
+Peyrl, Parrilo 2008). A p with zeros has none inside: the polynomials b_k are those combinations of monomials that
+vanish at the zeros that are found.
 """
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
 from fractions import Fraction
 from functools import lru_cache
-from itertools import product
-from math import lcm
+from itertools import combinations, product
+from math import lcm, prod
+from operator import add, sub
 
-from qe.exact.quadratic_form import Solution, solve_linear
+from qe.exact.quadratic_form import echelon, solve_linear
 from qe.exact.ring import Poly
-from qe.positivity.identity import Positive, sum_of
-from qe.positivity.samples import grid
+from qe.positivity.identity import Positive, Powers, sum_of
+from qe.positivity.samples import drawn, grid
 
-MOST_MONOMIALS, MOST_EQUATIONS, MOST_TERMS, MOST_VARIABLES = 24, 160, 80, 6
+MOST_MONOMIALS, MOST_LOOKED_AT, MOST_ENTRIES, MOST_EQUATIONS = 130, 10_000, 900, 260
+MOST_TERMS, MOST_VARIABLES = 200, 6
 STEPS, LARGEST, NOISE = 60, 1e12, 1e-6  # of the solver; beyond these its point is not worth rounding
 _DENOMINATORS = (1, 2, 12, 60, 2**10, 2**20, 2**32)
 
-Matrix = list[list[Fraction]]
+Exponents = tuple[int, ...]
+
+
+@dataclass(frozen=True, slots=True)
+class _Squares:
+    """The products of a factor, given by its variables, and squares of combinations of the polynomials ``basis``."""
+
+    factor: tuple[Poly, ...]
+    basis: tuple[Poly, ...]
+
+    def places(self) -> Iterator[tuple[int, int]]:
+        """The entries (i, j) of the Gram matrix with i <= j."""
+        return ((i, j) for i in range(len(self.basis)) for j in range(i, len(self.basis)))
+
+    def parts(self, entries: Iterator[Fraction]) -> list[tuple[Fraction, Powers]] | None:
+        """The sum of squares with these entries by LDL^T; None where the matrix is not positive semidefinite."""
+        size, products = len(self.basis), list[tuple[Fraction, Powers]]()
+        rows = [[Fraction(0)] * size for _ in range(size)]
+        for (i, j), entry in zip(self.places(), entries, strict=False):
+            rows[i][j] = rows[j][i] = entry
+        for k in range(size):
+            pivot = rows[k][k]
+            if pivot < 0 or (not pivot and any(rows[k][k:])):
+                return None
+            if not pivot:
+                continue
+            weights = [entry / pivot for entry in rows[k][k:]]
+            scale = lcm(*(w.denominator for w in weights))
+            base = sum(
+                (b * int(w * scale) for b, w in zip(self.basis[k:], weights, strict=True) if w), 0 * self.basis[k]
+            )
+            factor, square = tuple((v, 1) for v in self.factor), (base, 2)
+            if base.is_constant:
+                products.append((pivot * base.constant_value() ** 2 / scale**2, factor))
+            else:
+                products.append((pivot / scale**2, (*factor, square)))
+            for i in range(k + 1, size):
+                if step := rows[i][k] / pivot:
+                    rows[i] = [a - step * b if b else a for a, b in zip(rows[i], rows[k], strict=True)]
+        return products
 
 
 @lru_cache(maxsize=500)
-def sum_of_squares(poly: Poly) -> Positive | None:
-    """That the polynomial is nowhere negative; None where none is found, or without clarabel."""
-    if poly.total_degree % 2 or poly.term_count() > MOST_TERMS:
-        return None
-    monomials = _monomials(poly)
-    if monomials is None:
-        return None
-    basis = _vanishing(poly, monomials)
-    space = _gram_matrices(poly, basis)
-    if space is None:
-        return None
-    size = len(basis)
-    point = _inside(space, size)
+def sum_of_squares(poly: Poly, orthant: frozenset[int] = frozenset()) -> Positive | None:
+    """That the polynomial is nowhere negative where the variables of ``orthant`` are not; None where none is found, or
+    without clarabel."""
+    ring, lowest = poly.ring, [min(powers) for powers in zip(*(e for e, _ in poly.terms()), strict=True)]
+    shared = [e if i in orthant else e - e % 2 for i, e in enumerate(lowest)]
+    monomial = tuple((ring.gen(i), e) for i, e in enumerate(shared) if e)
+    rest = ring.from_terms({tuple(map(sub, e, shared)): c for e, c in poly.terms()}) if monomial else poly
+    parts = [(c, (*monomial, *powers)) for c, powers in _products(rest, orthant)]
+    return Positive((sum_of(poly, parts),), any(not powers for _, powers in parts)) if parts else None
+
+
+def _products(poly: Poly, orthant: frozenset[int]) -> list[tuple[Fraction, Powers]]:
+    """Positive numbers and products that are nowhere negative, with the polynomial as sum; none if none are found."""
+    if any(poly.evaluate(point) < 0 for point in drawn(poly, orthant)):
+        return []
+    classes = _classes(poly, orthant)
+    width = sum(1 for squares in classes for _ in squares.places())
+    rows, pivots = echelon(_equations(poly, classes)) if 0 < width <= MOST_ENTRIES else ([], [])
+    if not rows or width in pivots:
+        return []
+    system = [{k: c for k, c in enumerate(row) if c} for row in rows]
+    point = _inside(system, classes, width)
     for denominator in _DENOMINATORS if point is not None else ():
         assert point is not None
         chosen = [Fraction(round(z * denominator), denominator) for z in point]
-        parts = _squares(_matrix(space, chosen, size), basis)
+        for pivot, row in zip(pivots, system, strict=True):  # in which no other pivot occurs
+            others = sum((c * chosen[k] for k, c in row.items() if k not in (pivot, width)), Fraction(0))
+            chosen[pivot] = row.get(width, Fraction(0)) - others
+        parts = _parts(classes, chosen)
         if parts is not None:
-            listed = [
-                (d * base.constant_value() ** 2, ()) if base.is_constant else (d, ((base, 2),)) for d, base in parts
-            ]
-            return Positive((sum_of(poly, listed),), strict=any(not powers for _, powers in listed))
-    return None
+            return parts
+    return []
 
 
-def _monomials(poly: Poly) -> list[tuple[int, ...]] | None:
-    """Exponents of monomials that squares may have, falling; None where they are too many.
+def _parts(classes: Sequence[_Squares], entries: Sequence[Fraction]) -> list[tuple[Fraction, Powers]] | None:
+    """The products of all classes; None where a matrix is not positive semidefinite."""
+    left, products = iter(entries), list[tuple[Fraction, Powers]]()
+    for squares in classes:
+        parts = squares.parts(left)
+        if parts is None:
+            return None
+        products += parts
+    return products
+
+
+def _classes(poly: Poly, orthant: frozenset[int]) -> list[_Squares]:
+    """The squares that may take part, by the parity of their monomials in y; none where they are too many."""
+    ring, gathered = poly.ring, dict[Exponents, list[Exponents]]()
+    for half in _halves(poly, orthant):
+        odd = tuple(e % 2 if i in orthant else 0 for i, e in enumerate(half))
+        base = tuple(e // 2 if i in orthant else e for i, e in enumerate(half))
+        gathered.setdefault(odd, []).append(base)
+    zeros = [z for z in grid(poly, orthant) if not poly.evaluate(z)] if gathered else []
+    classes = []
+    for odd, exponents in gathered.items():
+        seen = [z for z in zeros if all(x for x, o in zip(z, odd, strict=True) if o)]
+        basis = _vanishing([ring.from_terms({e: 1}) for e in exponents], seen)
+        classes.append(_Squares(tuple(ring.gen(i) for i, o in enumerate(odd) if o), tuple(basis)))
+    return [squares for squares in classes if squares.basis]
+
+
+def _halves(poly: Poly, orthant: frozenset[int]) -> list[Exponents]:
+    """Exponents of monomials in y that squares may have, falling; none where they are too many.
 
     Twice an exponent lies in the Newton polytope, here between the bounds of a few directions; and it is an exponent of
-    the polynomial, or a sum of two others in another way (else its diagonal entry, and so its row, is 0).
+    the polynomial, or a sum of two others of its class (else its diagonal entry, and so its row, is 0).
     """
-    exponents = [e for e, _ in poly.terms()]
-    used = poly.variables
-    tops = [max(e[i] for e in exponents) // 2 if i in used else 0 for i in range(poly.ring.size)]
-    if any(max(e[i] for e in exponents) % 2 for i in used) or len(used) > MOST_VARIABLES:
-        return None
-    low, high = (f(sum(e) for e in exponents) for f in (min, max))
-    found = [m for m in product(*(range(t + 1) for t in tops)) if low <= 2 * sum(m) <= high]
-    if len(found) > 8 * MOST_MONOMIALS:
-        return None
-    support = set(exponents)
-    while True:
-        sums = {tuple(a + b for a, b in zip(m, n, strict=True)) for m in found for n in found if m != n}
-        kept = [m for m in found if (twice := tuple(2 * e for e in m)) in support or twice in sums]
-        if len(kept) == len(found):
-            break
-        found = kept
-    return sorted(found, key=lambda m: (sum(m), m), reverse=True) if 0 < len(found) <= MOST_MONOMIALS else None
+    support = {tuple(e * (1 + (i in orthant)) for i, e in enumerate(exponents)) for exponents, _ in poly.terms()}
+    tops = [max(column) for column in zip(*support, strict=True)]
+    few = len(support) <= MOST_TERMS and len(poly.variables) <= MOST_VARIABLES
+    if not few or any(top % 2 for top in tops) or prod(top // 2 + 1 for top in tops) > MOST_LOOKED_AT:
+        return []
+    low, high = (f(map(sum, support)) for f in (min, max))
+    halves = [m for m in product(*(range(top // 2 + 1) for top in tops)) if low <= 2 * sum(m) <= high]
+    while 0 < len(halves) <= MOST_MONOMIALS:
+        alike = {m: tuple(m[i] % 2 for i in orthant) for m in halves}
+        sums = {tuple(map(add, m, n)) for m, n in combinations(halves, 2) if alike[m] == alike[n]}
+        kept = [m for m in halves if (twice := tuple(map(add, m, m))) in support or twice in sums]
+        if len(kept) == len(halves):
+            return sorted(halves, key=lambda m: (sum(m), m), reverse=True)
+        halves = kept
+    return []
 
 
-def _vanishing(poly: Poly, monomials: Sequence[tuple[int, ...]]) -> list[Poly]:
-    """Combinations of the monomials that vanish at the zeros of the polynomial on a small grid."""
-    ring = poly.ring
-    plain = [ring.from_terms({m: 1}) for m in monomials]
-    rows = [[m.evaluate(z) for m in plain] for z in grid(poly) if not poly.evaluate(z)]
-    solved = solve_linear(rows, [Fraction(0)] * len(rows), len(plain)) if rows else None
+def _vanishing(monomials: list[Poly], zeros: Sequence[Sequence[Fraction]]) -> list[Poly]:
+    """Combinations of the monomials that vanish at these points."""
+    rows = [[m.evaluate(z) for m in monomials] for z in zeros]
+    solved = solve_linear(rows, [Fraction(0)] * len(rows), len(monomials)) if rows else None
     if solved is None:
-        return plain
-    found = []
+        return monomials
+    vanishing = []
     for vector in solved.kernel:
         scale = lcm(*(c.denominator for c in vector))
-        found.append(sum((m * int(c * scale) for m, c in zip(plain, vector, strict=True)), ring.constant(0)))
-    return found
+        vanishing.append(sum((m * int(c * scale) for m, c in zip(monomials, vector, strict=True)), 0 * monomials[0]))
+    return vanishing
 
 
-def _gram_matrices(poly: Poly, basis: Sequence[Poly]) -> Solution | None:
-    """All Q with p = b^T Q b, as vectors of entries i <= j; None where there is none."""
-    places = [(i, j) for i in range(len(basis)) for j in range(i, len(basis))]
-    rows: dict[tuple[int, ...], list[Fraction]] = {e: [Fraction(0)] * len(places) for e, _ in poly.terms()}
-    for k, (i, j) in enumerate(places):
-        for exponents, c in (basis[i] * basis[j]).terms():
-            row = rows.setdefault(exponents, [Fraction(0)] * len(places))
-            row[k] += c if i == j else 2 * c
-    if not places or len(rows) > MOST_EQUATIONS:
-        return None
-    values = dict(poly.terms())
-    return solve_linear(list(rows.values()), [Fraction(values.get(e, 0)) for e in rows], len(places))
+def _equations(poly: Poly, classes: Sequence[_Squares]) -> list[list[Fraction]]:
+    """For each monomial what the entries of the matrices give to it, and its coefficient in the polynomial; none where
+    they are too many."""
+    width = sum(1 for squares in classes for _ in squares.places())
+    rows = {e: [*[Fraction(0)] * width, Fraction(c)] for e, c in poly.terms()}
+    places = ((squares, i, j) for squares in classes for i, j in squares.places())
+    for column, (squares, i, j) in enumerate(places):
+        for exponents, c in prod((*squares.factor, squares.basis[j]), start=squares.basis[i]).terms():
+            row = rows.setdefault(exponents, [Fraction(0)] * (width + 1))
+            row[column] += c if i == j else 2 * c
+    return list(rows.values()) if len(rows) <= MOST_EQUATIONS else []
 
 
-def _matrix(space: Solution, point: Sequence[Fraction], size: int) -> Matrix:
-    entries = list(space.particular)
-    for z, direction in zip(point, space.kernel, strict=True):
-        if z:
-            entries = [e + z * d if d else e for e, d in zip(entries, direction, strict=True)]
-    found = [[Fraction(0)] * size for _ in range(size)]
-    places = ((i, j) for i in range(size) for j in range(i, size))
-    for (i, j), entry in zip(places, entries, strict=True):
-        found[i][j] = found[j][i] = entry
-    return found
-
-
-def _squares(matrix: Matrix, basis: Sequence[Poly]) -> list[tuple[Fraction, Poly]] | None:
-    """d and q with b^T Q b = sum d * q^2 by LDL^T; None where Q is not positive semidefinite."""
-    rows, found = [list(row) for row in matrix], []
-    for k in range(len(basis)):
-        pivot = rows[k][k]
-        if pivot < 0 or (not pivot and any(rows[k][k:])):
-            return None
-        if not pivot:
-            continue
-        weights = [entry / pivot for entry in rows[k][k:]]
-        scale = lcm(*(w.denominator for w in weights))
-        base = sum((b * int(w * scale) for b, w in zip(basis[k:], weights, strict=True)), basis[0].ring.constant(0))
-        found.append((pivot / scale**2, base))
-        for i in range(k + 1, len(basis)):
-            if factor := rows[i][k] / pivot:
-                rows[i] = [a - factor * b if b else a for a, b in zip(rows[i], rows[k], strict=True)]
-    return found
-
-
-def _inside(space: Solution, size: int) -> list[float] | None:
-    """Coordinates of a matrix whose least eigenvalue is as large as it can be (up to 1); None if it is not positive."""
-    if not space.kernel:
-        return []
+def _inside(system: Sequence[dict[int, Fraction]], classes: Sequence[_Squares], width: int) -> list[float] | None:
+    """Entries of matrices whose least eigenvalue is as large as it can be (up to 1); None if they are not positive."""
     try:
         import clarabel
         import numpy as np
         from scipy import sparse
     except ImportError:
         return None
-    places = [(i, j) for j in range(size) for i in range(j + 1)]  # upper triangle by columns, as the cone wants it
-    number = {place: k for k, place in enumerate((i, j) for i in range(size) for j in range(i, size))}
-    order = [number[place] for place in places]
-    factors = np.array([1.0 if i == j else 2.0**0.5 for i, j in places])
-    columns = np.array([[float(v[k]) for k in order] for v in space.kernel]).T * factors[:, None]
-    identity = np.array([1.0 if i == j else 0.0 for i, j in places])
-    start = np.array([float(space.particular[k]) for k in order]) * factors
-    count = len(space.kernel)
-    rows = np.vstack([np.hstack([-columns, identity[:, None]]), [[0.0] * count + [1.0]]])
-    right = np.concatenate([start, [1.0]])
-    cost = np.array([0.0] * count + [-1.0])
+    entries = [(r, k, float(c)) for r, row in enumerate(system) for k, c in row.items() if k < width]
+    right, count, column = [float(row.get(width, 0)) for row in system], len(system), 0
+    cones = [clarabel.ZeroConeT(count)]
+    for squares in classes:  # entries of each upper triangle by columns, as the cone wants them, minus the eigenvalue
+        size = len(squares.basis)
+        for j in range(size):
+            for i in range(j + 1):
+                k = column + i * size - i * (i - 1) // 2 + j - i
+                entries.append((count, k, -1.0 if i == j else -(2.0**0.5)))
+                if i == j:
+                    entries.append((count, width, 1.0))
+                count += 1
+        column += size * (size + 1) // 2
+        cones.append(clarabel.PSDTriangleConeT(size))
+    entries.append((count, width, 1.0))
+    right += [0.0] * (count - len(system)) + [1.0]
+    lines, places, values = zip(*entries, strict=True)
+    matrix = sparse.csc_matrix((values, (lines, places)), shape=(count + 1, width + 1))
     settings = clarabel.DefaultSettings()
-    settings.verbose = False
-    settings.max_iter = STEPS
-    cones = [clarabel.PSDTriangleConeT(size), clarabel.NonnegativeConeT(1)]
-    nothing = sparse.csc_matrix((count + 1, count + 1))
-    solution = clarabel.DefaultSolver(nothing, cost, sparse.csc_matrix(rows), right, cones, settings).solve()
+    settings.verbose, settings.max_iter = False, STEPS
+    cost, nothing = np.array([0.0] * width + [-1.0]), sparse.csc_matrix((width + 1, width + 1))
+    cones.append(clarabel.NonnegativeConeT(1))
+    solution = clarabel.DefaultSolver(nothing, cost, matrix, np.array(right), cones, settings).solve()
     point = [float(z) for z in solution.x]
-    return point[:count] if all(abs(z) < LARGEST for z in point) and point[count] > -NOISE else None
+    return point[:width] if all(abs(z) < LARGEST for z in point) and point[width] > -NOISE else None

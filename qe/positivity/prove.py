@@ -11,7 +11,7 @@ from qe.positivity.identity import Positive
 from qe.positivity.ordered import ordered_differences
 from qe.positivity.samples import may_be_positive
 
-MOST_VARIABLES, MOST_DEGREE, MOST_TERMS = 6, 16, 60
+MOST_VARIABLES, MOST_DEGREE, MOST_TERMS = 6, 16, 200
 FEWEST_VARIABLES = 4
 """Below this, decomposition decides sooner than the libraries of a semidefinite program are loaded."""
 
@@ -22,10 +22,10 @@ def nowhere_negative(poly: Poly, orthant: frozenset[int]) -> Positive | None:
     used, degree = poly.variables, poly.total_degree
     if not 2 <= degree <= MOST_DEGREE or len(used) > MOST_VARIABLES or poly.term_count() > MOST_TERMS:
         return None
-    own = orthant.intersection(used)
-    if any(poly.degree(i) % 2 for i in used if i not in own) or not may_be_positive(poly, own):
+    signed = orthant.intersection(used)
+    if any(poly.degree(i) % 2 for i in used if i not in signed) or not may_be_positive(poly, signed):
         return None
-    found = binomial_squares(poly, own)
-    if found is None and own:
-        found = ordered_differences(poly, own)
-    return found or (sum_of_squares(poly) if len(used) >= FEWEST_VARIABLES else None)
+    found = binomial_squares(poly, signed)
+    if found is None and signed:
+        found = ordered_differences(poly, signed)
+    return found or (sum_of_squares(poly, signed) if len(used) >= FEWEST_VARIABLES else None)

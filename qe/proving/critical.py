@@ -19,6 +19,7 @@ from qe.exact.ring import Poly, Ring
 from qe.exact.sample import Point
 from qe.expert import critical_values
 from qe.expert.critical_points import active_sets
+from qe.expert.critical_values import is_positive
 from qe.formula.build import convert
 from qe.formula.evaluate import holds_at
 from qe.formula.syntax import Exists, Formula
@@ -140,7 +141,7 @@ class _Cells:
     def shows(self, k: int, values: Values, inside: bool) -> bool:
         if inside:
             return all(c.holds((*values, *self.points[k])) for c in self.conditions)
-        return critical_values.is_positive(critical_values.over(self.sums[k], values))
+        return is_positive(critical_values.over(self.sums[k], values))
 
     def propose(self, values: Values, inside: bool) -> None:
         """A new point, or new weights, which may be wrong."""

@@ -18,7 +18,7 @@ from qe.rules.scaling import fix_origin, fix_scale
 from qe.rules.shear import linear_form
 from qe.rules.sphere import sphere_along_form
 from qe.rules.square_alone import square_alone
-from qe.rules.squares import known_signs
+from qe.rules.squares import known_signs, signs_before_substitution
 from qe.rules.step import StepKind
 from qe.rules.structural import (
     definitions,
@@ -38,6 +38,7 @@ RULES: tuple[Rule, ...] = (
     closed_form(StepKind.BALLS),
     rule(sphere_along_form, StepKind.SPHERE),
     closed_form(StepKind.HALF_PLANE, StepKind.QUADRICS, StepKind.CUBIC_INTERVAL, StepKind.CLOSED_FORM),
+    rule(signs_before_substitution, StepKind.SQUARES),
     rule(linear_equation, StepKind.LINEAR),
     rule(known_signs, StepKind.SQUARES),
     rule(drop_what_can_be_met, StepKind.TAKES_VALUE),

@@ -159,6 +159,8 @@ class _Position:
 
     def take_best(self, proposed: Sequence[Sequence[Solve]], places: Collection[int]) -> None:
         """Of several steps those that make the polynomials at these places shortest, if they gain enough."""
+        fixed = self.fixed()
+        proposed = [steps for steps in proposed if fixed.isdisjoint(step.variable for step in steps)]
         if not proposed:
             return
         best: Sequence[Solve] = ()
@@ -171,6 +173,11 @@ class _Position:
             if length < most:
                 best, most = steps, length
         self.take(best)
+
+    def fixed(self) -> set[str]:
+        """The variables of blocks of which every one is a factor by itself: the axes of an orthant stay."""
+        alone = {p.variables[0] for p in self.polys if p.total_degree == p.term_count() == 1}
+        return {self.ring.names[x] for block in self.blocks if alone.issuperset(block) for x in block}
 
     def scale_all(self) -> None:
         """Single variables, those of a block, and all of them."""

@@ -25,6 +25,17 @@ MOST_POLYNOMIALS, FEWEST_VARIABLES = 12, 3
 """Polynomials of one block that are looked at, and variables of each: with fewer, other methods are as quick."""
 
 
+def signs_before_substitution(variables: tuple[str, ...], body: Formula, context: BlockContext) -> Found | None:
+    """The same where an equation makes polynomials homogeneous, which is hidden where it is solved for a variable."""
+    from qe.positivity.conditions import conditions_of
+
+    return (
+        known_signs(variables, body, context)
+        if any(is_equation for _, (*_, is_equation) in conditions_of(conjuncts(body)))
+        else None
+    )
+
+
 def known_signs(variables: tuple[str, ...], body: Formula, context: BlockContext) -> Found | None:
     """Every comparison with a polynomial of a known sign replaced by what is left of it."""
     if not body.is_quantifier_free:

@@ -45,6 +45,19 @@ def test_sentences(left: str, where: str, right: str) -> None:
 
 
 @each(
+    ("a*b*c*d = 1", "1/(a + b + 2) + 1/(b + c + 2) + 1/(c + d + 2) + 1/(d + a + 2) <= 1"),
+    ("(a + c)*(b + d) = 1", "a^3/(b + c + d) + b^3/(c + d + a) + c^3/(d + a + b) + d^3/(a + b + c) >= 1/3"),
+    ("(a + c)*(b + d) = 1", "a + b + c + d >= 2"),
+)
+def test_an_equation_makes_homogeneous_before_it_is_solved_for_a_variable(where: str, claim: str) -> None:
+    """Also where linear changes of the variables would make the polynomials shorter: an orthant keeps its axes."""
+    pytest.importorskip("clarabel")
+    signs = "a > 0 and b > 0 and c > 0 and d > 0"
+    found = qe.eliminate(f"all a, b, c, d. {signs} and {where} -> {claim}", check=True, timeout=60)
+    assert (found.truth, found.guarantee) == (True, qe.Guarantee.CHECKED)
+
+
+@each(
     ("x*y*z >= 1 -> x + y + z <= x^2 + y^2 + z^2", True),
     ("x*y*z >= 1 and x*y*z >= 1/2 -> x + y + z >= 3", True),
     ("x*y + z^2 >= 1 and x^2 + y^2 + z^2 >= 1 -> x + y + z >= 1", True),

@@ -2,6 +2,8 @@
 
 import builtins
 import random
+from fractions import Fraction
+from math import prod
 
 import pytest
 from hypothesis import given, settings
@@ -102,6 +104,54 @@ def test_what_takes_negative_values(text: str) -> None:
     poly = poly_of(text)
     for prove in (lambda p: nowhere_negative(p, NOWHERE), sum_of_squares, lambda p: binomial_squares(p, NOWHERE)):
         assert prove(poly) is None
+
+
+def cleared(terms: list[tuple[str, str]], bound: str) -> str:
+    """The sum of the quotients less the bound, times all denominators."""
+    product = "*".join(f"({bottom})" for _, bottom in terms)
+    others = ("*".join(f"({b})" for j, (_, b) in enumerate(terms) if j != i) for i in range(len(terms)))
+    return (
+        " + ".join(f"({top})*{rest}" for (top, _), rest in zip(terms, others, strict=True)) + f" - ({bound})*{product}"
+    )
+
+
+@each(
+    cleared([("2*a", "b + c"), ("2*b", "c + d"), ("2*c", "d + e"), ("2*d", "e + a"), ("2*e", "a + b")], "5"),  # Shapiro
+    cleared(
+        [("a^3", "b + c + d"), ("b^3", "c + d + a"), ("c^3", "d + a + b"), ("d^3", "a + b + c")], "(a + c)*(b + d)/3"
+    ),
+    "a^3*b^2*(a^2 + b^2 + c^2 + d^2 - a*b - b*c - c*d)",
+)
+def test_squares_times_products_of_variables(text: str) -> None:
+    """Shapiro's inequality in five variables (Mitrinović 1970, 2.23), problem 24 of the shortlist of the International
+    Mathematical Olympiad 1990, and a form times a monomial."""
+    pytest.importorskip("clarabel")
+    poly = read_polynomial(text)[0]
+    everywhere = frozenset(range(poly.ring.size))
+    proof = sum_of_squares(poly, everywhere)
+    assert proof is not None
+    (identity,) = proof.identities
+    total, gens = poly.ring.constant(0), {poly.ring.gen(i) for i in everywhere}
+    for c, powers in identity.terms:
+        total = total + prod((base**e for base, e in powers), start=poly.ring.constant(c))
+    assert not total
+    for c, powers in identity.terms[1:]:
+        assert c > 0 and all(e % 2 == 0 or base in gens for base, e in powers)
+    assert sum_of_squares(poly - poly.ring.gen(0) ** poly.total_degree, everywhere) is None
+
+
+@settings(deadline=None, max_examples=30, derandomize=True)
+@given(st.integers(0, 10**9))
+def test_no_sum_of_squares_is_claimed_where_a_value_is_negative(seed: int) -> None:
+    """Forms with a zero inside the orthant, which turn negative beside it where a small multiple is taken away."""
+    rng = random.Random(seed)
+    squares = [random_poly(rng, 2, 4) ** 2 * RING.gen(rng.randrange(3)) for _ in range(2)]
+    poly = sum(squares, RING.constant(0)) - RING.from_terms({(1, 1, 1): rng.randint(0, 3)})
+    proof = sum_of_squares(poly, EVERY) if poly else None
+    point = [Fraction(rng.randint(0, 9), rng.randint(1, 5)) for _ in range(3)]
+    if proof is not None:
+        check(poly, proof, EVERY)
+        assert poly.evaluate(point) >= 0
 
 
 def test_the_motzkin_polynomial_is_no_sum_of_squares() -> None:
