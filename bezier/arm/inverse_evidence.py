@@ -72,10 +72,10 @@ def _over(around: Sequence[tuple[Fraction, Fraction]], t: Sequence[Fraction], bo
     ]
 
 
-def _wider(ends: tuple[Fraction, Fraction], bits: int) -> tuple[Fraction, Fraction]:
+def _wider(ends: tuple[Fraction, Fraction], bits: int, spare: int = 4) -> tuple[Fraction, Fraction]:
     """Short numbers around an interval."""
     middle = round(sum(ends) / 2 * (1 << bits))
-    return Fraction(middle - 4, 1 << bits), Fraction(middle + 4, 1 << bits)
+    return Fraction(middle - spare, 1 << bits), Fraction(middle + spare, 1 << bits)
 
 
 def _parameter(solution: Solution, turn: tuple[Fraction, Fraction] | None, bits: int) -> Fraction:
@@ -110,13 +110,7 @@ def _arcs(choice: Choice, places: int) -> Json:
 
 
 def _of(value: Value, places: int) -> Json:
-    return [_around(ball.ends, places) for ball in value.pair or (value.ball,)]
-
-
-def _around(ends: tuple[Fraction, Fraction], places: int) -> Json:
-    unit = Fraction(1, 1 << places)
-    middle = round(sum(ends) / 2 / unit)
-    return [str((middle - 2) * unit), str((middle + 2) * unit)]
+    return [list(map(str, _wider(ball.ends, places, 2))) for ball in value.pair or (value.ball,)]
 
 
 def _triple(numbers: Sequence[Any]) -> Json:

@@ -201,8 +201,8 @@ def read_exact(text: str) -> Exact:
         for number in re.findall(_NUMBER, text):
             parse(number)
         result = qe.find_instance(f"x = {text}")
-    except (NotANumber, InputError):
-        raise refused from None
+    except (NotANumber, InputError) as error:
+        raise InputError(f"{refused}: {re.sub('^<text>:[0-9:]* ', '', str(error))}") from None
     if result is None:
         raise InputError(f"{refused}, which divides by zero or has the root of a negative number")
     return result["x"]
