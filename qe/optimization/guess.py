@@ -11,12 +11,13 @@ better value, which a sentence says, and where it has this one.
 from __future__ import annotations
 
 import random
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from math import isinf
 from typing import Any
 
 from qe.elimination.samples import bounds
-from qe.exact.near_zeros import NearZeros, Point, value
+from qe.errors import BudgetExceeded
+from qe.exact.near_zeros import STEPS, NearZeros, Point, value
 from qe.exact.number import Number, Values
 from qe.exact.ring import Poly, Ring
 from qe.formula.build import conj
@@ -30,6 +31,9 @@ MOST_VARIABLES, STARTS, FIRST_STEPS, LONGEST, LONGEST_OF_POINT = 8, 16, 4, 4, 3
 """Variables of a problem, points to start from (all ones, drawn ones), steps from each with fixed variables, how far
 the schedule of digits is followed for values and for coordinates."""
 
+SEARCH_WORK = 60_000
+"""Units of work for the points; those that are known by then have to do."""
+
 ROUGH, SAME = 64, 1e-9
 """Bits that a point needs to count, and what is as good as 0."""
 
@@ -41,21 +45,18 @@ def guess(sign: int, goal: Goal, budget: Budget) -> tuple[Number, Values] | None
     if system is None:
         return None
 
-    def spend(units: int) -> None:
-        budget.spend(units)
-        budget.check("a guess")
+    limits = [budget.part(SEARCH_WORK)]
 
-    zeros, sides = NearZeros.of(system[0], spend), system[1]
-    points, rng, variables = list[Point](), random.Random(0), range(1, 1 + len(goal.variables))
-    box = bounds(conj(sides), system[0][0].ring.size)
-    for k in range(STARTS):
-        drawn = [(low, high, rng.gauss(0, 1)) for low, high in box]
-        start: Sequence[Any] = [min(x if isinf(low) else low + abs(x), high) for low, high, x in drawn]
-        if k % 2 == 0:
-            start, _ = zeros.near(start if k else [1.0] * len(box), ROUGH, variables, FIRST_STEPS)
-        point, is_zero = zeros.near(start, ROUGH)
-        if is_zero and all(_holds(side, point) for side in sides):
-            points.append(point)
+    def spend(units: int) -> None:
+        limits[0].spend(units)
+        limits[0].check("a guess")
+
+    zeros, points = NearZeros.of(system[0], spend), list[Point]()
+    try:
+        points.extend(_stationary_points(zeros, system, len(goal.variables)))
+    except BudgetExceeded:
+        budget.check("a guess")
+    limits[0] = budget
     if not points:
         return None
     least = min(float(point[0]) * sign for point in points) + SAME
@@ -71,6 +72,22 @@ def guess(sign: int, goal: Goal, budget: Budget) -> tuple[Number, Values] | None
         place[name] = coordinate
     there = holds_at(conj((goal.graph, goal.conditions)), place)
     return optimum, {name: place[name] for name in goal.variables} if there else {}
+
+
+def _stationary_points(zeros: NearZeros, system: tuple[list[Poly], list[Atom]], variables: int) -> Iterator[Point]:
+    """What is found from several starts, each as soon as it is known."""
+    (first, *_), sides = system
+    rng, box = random.Random(0), bounds(conj(sides), first.ring.size)
+    for k in range(STARTS):
+        drawn = [(low, high, rng.gauss(0, 1)) for low, high in box]
+        start: Sequence[Any] = [min(x if isinf(low) else low + abs(x), high) for low, high, x in drawn]
+        if k % 2 == 0:
+            start, _ = zeros.near(
+                start if k else [1.0] * len(box), ROUGH, range(1, 1 + variables), FIRST_STEPS if k else STEPS
+            )
+        point, is_zero = zeros.near(start, ROUGH)
+        if is_zero and all(_holds(side, point) for side in sides):
+            yield point
 
 
 def _stationary(goal: Goal) -> tuple[list[Poly], list[Atom]] | None:

@@ -175,9 +175,10 @@ class _Position:
         self.take(best)
 
     def fixed(self) -> set[str]:
-        """The variables of blocks of which every one is a factor by itself: the axes of an orthant stay."""
+        """Axes of an orthant stay: variables that are factors, where all of a block are, or of three all but one."""
         alone = {p.variables[0] for p in self.polys if p.total_degree == p.term_count() == 1}
-        return {self.ring.names[x] for block in self.blocks if alone.issuperset(block) for x in block}
+        orthants = (block for block in self.blocks if len({*block} - alone) <= (len(block) > 2))
+        return {self.ring.names[x] for block in orthants for x in alone.intersection(block)}
 
     def scale_all(self) -> None:
         """Single variables, those of a block, and all of them."""

@@ -26,6 +26,11 @@ SHAPIRO = "a/(b + c) + b/(c + d) + c/(d + a) + d/(a + b)"
 CYCLIC = "a^3*b + b^3*c + c^3*a"
 """V. Cirtoaje, (a^2 + b^2 + c^2)^2 >= 3*(a^3*b + b^3*c + c^3*a), Gazeta Matematica B 97 (1992)."""
 
+SHAPIRO_OF_FIVE = "a/(b + c) + b/(c + d) + c/(d + e) + d/(e + a) + e/(a + b)"
+
+SHORTLIST_1990 = "a^3/(b + c + d) + b^3/(c + d + a) + c^3/(d + a + b) + d^3/(a + b + c)"
+"""Problem 24 of the shortlist of the International Mathematical Olympiad 1990."""
+
 IMO_2006_3 = "a*b*(a^2 - b^2) + b*c*(b^2 - c^2) + c*a*(c^2 - a^2)"
 
 TANGENT = "a/(1 + b^2) + b/(1 + c^2) + c/(1 + a^2)"
@@ -35,6 +40,8 @@ TANGENT_OF_FOUR = "a/(1 + b^2) + b/(1 + c^2) + c/(1 + d^2) + d/(1 + a^2)"
 
 @each(
     (qe.minimize, SHAPIRO, "a > 0 and b > 0 and c > 0 and d > 0", "2"),
+    (qe.minimize, SHAPIRO_OF_FIVE, "a > 0 and b > 0 and c > 0 and d > 0 and e > 0", "5/2"),
+    (qe.minimize, SHORTLIST_1990, "a > 0 and b > 0 and c > 0 and d > 0 and (a + c)*(b + d) = 1", "1/3"),
     (qe.maximize, CYCLIC, "a^2 + b^2 + c^2 = 1", "1/3"),
     (qe.maximize, CYCLIC, "a^2 + b^2 + c^2 = 1 and a >= 0 and b >= 0 and c >= 0", "1/3"),
     (qe.minimize, TANGENT, "a > 0 and b > 0 and c > 0 and a + b + c = 3", "3/2"),

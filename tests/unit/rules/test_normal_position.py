@@ -67,6 +67,15 @@ def test_what_is_short_stays(text: str) -> None:
     assert StepKind.POSITION.value not in [step.rule for step in qe.eliminate(text).derivation.steps]
 
 
+@each(("x > 0 and y > 0 and z > 0", False), ("x > 0 and y > 0 and v = x*y", False), ("x > y and y > z", True))
+def test_the_axes_of_an_orthant_stay(signs: str, moves: bool) -> None:
+    """Rules for polynomials on an orthant do not see it in other coordinates, in which the polynomials are shorter."""
+    variables = "x, y, v" if "v" in signs else "x, y, z"
+    powers = "(x - y)^4 + (x - y)^3 + (x - y)^2*a" if "v" in signs else "(x - y)^4 + (x - y)^3 + (y - z)^4"
+    steps = position(f"ex {variables}. {signs} and {powers} < 1")[0]
+    assert any(len(step.numerator.variables) > 1 for step in steps) is moves
+
+
 def test_signs_are_kept() -> None:
     """An even and an odd degree, negative coefficients: the sign at a point is that at its coordinates."""
     ring = Ring.of(("x", "y"))
