@@ -36,7 +36,7 @@ def read_chain(table: Table) -> Chain:
         points,
         table.whole("degree", 3, range(1, 10)),
         table.whole("continuity", 2, range(1, 10)),
-        () if free else _durations(table),
+        () if free else _durations(table, len(points) - (not closed)),
         table.choice("ends", Ends, Ends.FREE),
         closed,
         table.choice("objective", Objective, Objective.LEGS),
@@ -70,12 +70,10 @@ def _points(table: Table, closed: bool) -> tuple[Point, ...]:
     return tuple(points)
 
 
-def _durations(table: Table) -> tuple[Fraction, ...]:
-    raw = table.values.get("durations", [])
-    if not isinstance(raw, list):
-        raise table.error("durations", 'a list of numbers, the seconds of each curve, or "free"', describe(raw))
-    if any(isinstance(entry, list) for entry in raw):
-        raise table.error("durations", "a list of numbers", "a list in it")
+def _durations(table: Table, pieces: int) -> tuple[Fraction, ...]:
+    raw, expected = table.values.get("durations", []), f'{pieces} numbers, the seconds of each curve, or "free"'
+    if not isinstance(raw, list) or len(raw) not in (0, pieces):
+        raise table.error("durations", expected, describe(raw))
     durations = table.as_point("durations", raw, len(raw))
     for i, t in enumerate(durations):
         if t <= 0:

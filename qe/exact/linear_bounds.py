@@ -132,6 +132,7 @@ class LinearBounds(Bounds):
         self.lower.clear()
         self.upper.clear()
         self._changed.clear()
+        self.stuck = None
 
     def free(self, x: int) -> None:
         """No bounds on a variable from now on; what ``mark`` knew of them is lost."""

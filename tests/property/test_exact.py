@@ -85,8 +85,12 @@ def test_simplest_rational_between(a: Fraction, b: Fraction) -> None:
     found = simplest_between(fmpq(a.numerator, a.denominator), fmpq(b.numerator, b.denominator))
     value = Fraction(int(found.p), int(found.q))
     assert a < value < b
-    for q in range(1, value.denominator):
-        assert not any(a < Fraction(p, q) < b for p in range(int(a * q) - 1, int(b * q) + 2))
+    p, q = value.as_integer_ratio()
+    if q > 1:  # all fractions between the parents in the tree of Stern and Brocot have a denominator of q or more
+        below = pow(p, -1, q)
+        left = Fraction(p * below // q, below)
+        right = Fraction(p - left.numerator, q - below)
+        assert left <= a < b <= right
 
 
 polys = st.dictionaries(

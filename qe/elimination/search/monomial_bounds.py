@@ -52,7 +52,6 @@ class MonomialBounds:
     def conflict(self, atoms: Iterable[Atom], check: Callable[[], object]) -> set[Hashable] | None:
         """Atoms whose linear bounds contradict each other, with None where squares take part; or None."""
         self.bounds.clear()
-        self.bounds.stuck = None
         self.bounds.bound_squares()
         for given in atoms:
             check()

@@ -99,6 +99,12 @@ def test_strict_bounds_meet_at_no_point() -> None:
     assert asked.ask([((0, 0, 0), 0, ">")]) == {0}
 
 
+def test_a_conflict_of_two_bounds_is_no_conflict_on_the_row_of_an_earlier_question() -> None:
+    asked = Asked()
+    assert asked.ask([((0, 0, 0), 0, "<")]) == {0} and asked.bounds.stuck is not None
+    assert asked.ask([((0, 0, 1), 0, "<"), ((0, 0, 1), 0, ">")]) == {0, 1} and asked.bounds.stuck is None
+
+
 def test_huge_and_close_numbers() -> None:
     big = 10**40
     asked = Asked()
