@@ -57,10 +57,11 @@ class Cell:
 
     @staticmethod
     def box(low: Point, high: Point) -> Cell:
-        """Between two corners, which may be flat."""
+        """Between two corners, which may be flat; sides of one axis do not follow each other: cuts along these in turn
+        leave cells that are not long."""
         size = len(low)
         axes = [tuple(Fraction(i == k) for i in range(size)) for k in range(size)]
-        sides = [side for n, a, b in zip(axes, low, high, strict=True) for side in ((n, b), opposite((n, a)))]
+        sides = [*zip(axes, high, strict=True), *map(opposite, zip(axes, low, strict=True))]
         corners = list(dict.fromkeys(product(*zip(low, high, strict=True))))
         return Cell.of(sides, corners, is_flat=any(a == b for a, b in zip(low, high, strict=True)))
 
