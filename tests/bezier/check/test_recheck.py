@@ -140,6 +140,15 @@ def test_all_changes_of_a_bundle_are_refused(root, tmp_path, name):
     assert not changed_bundles(planned(root / "examples" / f"{name}.toml", tmp_path / name), 1)
 
 
+def test_heights_are_labelled_as_they_are_proved(copied):
+    """The proofs of y >= h and z >= h under each other's labels are right, but not of what these say."""
+    folder = copied("single_leaves")
+    first, second = (f"P for t_a <= t <= t_b in {axis} >= h" for axis in "yz")
+    turned = {first: second, second: first}
+    signed(folder, lambda found: [{**m, "label": turned.get(m["label"], m["label"])} for m in found])
+    assert f"label: expected {first!r}, found {second!r}" in (rejection(folder) or "")
+
+
 @each("single_leaves", "no_control_point")
 def test_certificates_without_content_are_refused(name, copied):
     folder = copied(name)
