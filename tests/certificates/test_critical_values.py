@@ -231,9 +231,10 @@ def test_what_is_said_of_cells(text: str) -> None:
                 refused(text, lambda e, j=j, i=i, o=other: e["stacks"][j][1][i].__setitem__(1, o))  # type: ignore[misc]
     for k in range(len(evidence["points"])):
         refused(text, lambda e, k=k: e["points"].__setitem__(k, ["50", "0"]), "a point")  # type: ignore[misc]
-    for k in range(len(evidence["weights"])):
-        refused(text, lambda e, k=k: e["weights"].__setitem__(k, ["0", "0"]), "weights")  # type: ignore[misc]
-        refused(text, lambda e, k=k: e["weights"].__setitem__(k, ["-1", "1"]), "negative")  # type: ignore[misc]
+    for k, (_, *rest) in enumerate(evidence["weights"]):
+        refused(text, lambda e, k=k, n=len(rest): e["weights"].__setitem__(k, ["0"] * (n + 1)), "weights")  # type: ignore[misc]
+        refused(text, lambda e, k=k, r=rest: e["weights"].__setitem__(k, ["-1", *r]), "negative")  # type: ignore[misc]
+        refused(text, lambda e, k=k, r=rest: e["weights"].__setitem__(k, r), "numbers")  # type: ignore[misc]
 
 
 def test_a_table_of_something_else() -> None:
