@@ -45,6 +45,7 @@ def test_sentences(left: str, where: str, right: str) -> None:
 
 
 @each(
+    ("a*b*c*d*e = 1 and e > 0", "a^4 + b^4 + c^4 + d^4 + e^4 >= 1/a + 1/b + 1/c + 1/d + 1/e"),
     ("a*b*c*d = 1", "1/(a + b + 2) + 1/(b + c + 2) + 1/(c + d + 2) + 1/(d + a + 2) <= 1"),
     ("(a + c)*(b + d) = 1", "a^3/(b + c + d) + b^3/(c + d + a) + c^3/(d + a + b) + d^3/(a + b + c) >= 1/3"),
     ("(a + c)*(b + d) = 1", "a + b + c + d >= 2"),
@@ -53,7 +54,7 @@ def test_an_equation_makes_homogeneous_before_it_is_solved_for_a_variable(where:
     """Also where linear changes of the variables would make the polynomials shorter: an orthant keeps its axes."""
     pytest.importorskip("clarabel")
     signs = "a > 0 and b > 0 and c > 0 and d > 0"
-    found = qe.eliminate(f"all a, b, c, d. {signs} and {where} -> {claim}", check=True, timeout=60)
+    found = qe.eliminate(f"all a, b, c, d, e. {signs} and {where} -> {claim}", check=True, timeout=60)
     assert (found.truth, found.guarantee) == (True, qe.Guarantee.CHECKED)
 
 

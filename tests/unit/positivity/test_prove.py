@@ -140,6 +140,18 @@ def test_squares_times_products_of_variables(text: str) -> None:
     assert sum_of_squares(poly - poly.ring.gen(0) ** poly.total_degree, everywhere) is None
 
 
+@each(
+    ("b^2*c^2 - b^2*a^2 - 2*b^2*c*x + b^2*x^2 + a^2*y^2", False),  # negative where c = x and y = 0
+    ("13*x^3 + 38*x^2*y + 41*x*y^2 + 20*y^3 - x^2*z - 3*x*y*z - 2*y^2*z", True),  # negative for large z
+)
+def test_negative_values_are_seen_before_a_program_is_solved(
+    text: str, signed: bool, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(gram, "_inside", lambda *rest: pytest.fail("a program was solved"))
+    poly = read_polynomial(text)[0]
+    assert sum_of_squares(poly, frozenset(range(poly.ring.size)) if signed else NOWHERE) is None
+
+
 @settings(deadline=None, max_examples=30, derandomize=True)
 @given(st.integers(0, 10**9))
 def test_no_sum_of_squares_is_claimed_where_a_value_is_negative(seed: int) -> None:
