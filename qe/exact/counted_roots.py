@@ -14,7 +14,7 @@ from itertools import pairwise
 
 from flint import arb, arb_mat, arb_poly, fmpq, fmpq_poly
 
-from qe.exact.balls import ball_sign, hull
+from qe.exact.balls import ball_sign
 from qe.exact.isolate import isolate
 
 
@@ -41,17 +41,35 @@ def _discriminant(polynomial: arb_poly) -> arb:
 
 
 def _around(polynomial: arb_poly, lo: fmpq, hi: fmpq, bits: int) -> arb | None:
-    """A ball inside the interval, with different signs at its ends; None where the balls do not tell them."""
-    if lo == hi:
-        margin = (abs(lo) if lo else fmpq(1)) / 2 ** (bits // 2)
-        lo, hi = lo - margin, hi + margin
-    left, right = (ball_sign(polynomial(arb(end))) for end in (lo, hi))
-    if not left or not right or left == right:
+    """A ball inside the interval, with different signs at its ends; None where the balls do not tell them.
+
+    The interval is that of the middle of the balls, and may end too near to a root: then a little beside its ends.
+    """
+    margin = (abs(lo) + 1) / 2 ** (bits // 2)
+    ends = [(arb(lo + d).mid(), arb(hi - d).mid()) for d in (fmpq(0), -margin, margin)]
+    below, (left, right) = next(((s, pair) for pair in ends if (s := _sign_before(polynomial, *pair))), (0, ends[0]))
+    if not below:
         return None
+    slope, aside = polynomial.derivative(), arb(margin).mid()
     for _ in range(bits):
-        middle = (lo + hi) / 2
-        sign = ball_sign(polynomial(arb(middle)))
-        if not sign:
+        middle, rise = ((left + right) / 2).mid(), slope(left.union(right))
+        near = (middle - aside).mid(), (middle + aside).mid()
+        if not rise.contains(0):  # interval Newton method
+            step = middle - polynomial(middle) / rise
+            narrowed = max(left, step.lower()), min(right, step.upper())
+        elif sign := ball_sign(polynomial(middle)):
+            narrowed = (middle, right) if sign == below else (left, middle)
+        elif _sign_before(polynomial, *near) == below:
+            narrowed = near
+        else:
             break
-        lo, hi = (middle, hi) if sign == left else (lo, middle)
-    return hull(lo, hi)
+        if not narrowed[1] - narrowed[0] < right - left:
+            break
+        left, right = narrowed
+    return left.union(right)
+
+
+def _sign_before(polynomial: arb_poly, left: arb, right: arb) -> int:
+    """The sign at the left end where that at the right one is the other; 0 where the balls do not tell so."""
+    below, above = (ball_sign(polynomial(end)) or 0 for end in (left, right))
+    return below if left < right and below * above < 0 else 0

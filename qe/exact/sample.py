@@ -337,6 +337,7 @@ class Fibre:
         bits = max(bits, EXACT_FROM if len(self.coefficients) > 3 else bits)  # fewer: too wide, looked for again
         enough = max(COUNTED_TO, 4 * bits)
         while True:
+            self.point.watch()
             with precision(bits + 16):
                 roots = self._attempt(bits)
             if roots is not None:
