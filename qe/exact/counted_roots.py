@@ -47,29 +47,29 @@ def _around(polynomial: arb_poly, lo: fmpq, hi: fmpq, bits: int) -> arb | None:
     """
     margin = (abs(lo) + 1) / 2 ** (bits // 2)
     ends = [(arb(lo + d).mid(), arb(hi - d).mid()) for d in (fmpq(0), -margin, margin)]
-    below, (left, right) = next(((s, pair) for pair in ends if (s := _sign_before(polynomial, *pair))), (0, ends[0]))
+    below, (start, end) = next(((s, pair) for pair in ends if (s := _sign_before(polynomial, *pair))), (0, ends[0]))
     if not below:
         return None
     slope, aside = polynomial.derivative(), arb(margin).mid()
     for _ in range(bits):
-        middle, rise = ((left + right) / 2).mid(), slope(left.union(right))
+        middle, rise = ((start + end) / 2).mid(), slope(start.union(end))
         near = (middle - aside).mid(), (middle + aside).mid()
         if not rise.contains(0):  # interval Newton method
             step = middle - polynomial(middle) / rise
-            narrowed = max(left, step.lower()), min(right, step.upper())
+            narrowed = max(start, step.lower()), min(end, step.upper())
         elif sign := ball_sign(polynomial(middle)):
-            narrowed = (middle, right) if sign == below else (left, middle)
+            narrowed = (middle, end) if sign == below else (start, middle)
         elif _sign_before(polynomial, *near) == below:
             narrowed = near
         else:
             break
-        if not narrowed[1] - narrowed[0] < right - left:
+        if not narrowed[1] - narrowed[0] < end - start:
             break
-        left, right = narrowed
-    return left.union(right)
+        start, end = narrowed
+    return start.union(end)
 
 
-def _sign_before(polynomial: arb_poly, left: arb, right: arb) -> int:
-    """The sign at the left end where that at the right one is the other; 0 where the balls do not tell so."""
-    below, above = (ball_sign(polynomial(end)) or 0 for end in (left, right))
-    return below if left < right and below * above < 0 else 0
+def _sign_before(polynomial: arb_poly, start: arb, end: arb) -> int:
+    """The sign at the start where that at the end is the other; 0 where the balls do not tell so."""
+    below, above = (ball_sign(polynomial(x)) or 0 for x in (start, end))
+    return below if start < end and below * above < 0 else 0
