@@ -38,8 +38,9 @@ _ESCAPE = re.compile(r"\\(?:u\{([0-9a-fA-F]{1,6})\}|([`\\]))")
 
 
 def is_product(name: str, letters: Container[str], bound: Container[str] = ()) -> bool:
-    """Whether text reads a word as a product: all its letters are names, or one is bound and stands nowhere alone."""
-    return len(name) > 1 and name.isalpha() and (all(x in letters for x in name) or any(x in bound for x in name))
+    """Whether text reads a word as a product: all its letters are names, or one of a few is bound and nowhere alone."""
+    lone = len(name) < 4 and any(x in bound for x in name)
+    return len(name) > 1 and name.isalpha() and (lone or all(x in letters for x in name))
 
 
 def quoted(name: str, others: Container[str] = ()) -> str:

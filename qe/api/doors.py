@@ -33,7 +33,7 @@ qe verify c.json --formula "ex x. x^2 = a"
 @dataclass(frozen=True, slots=True)
 class Door:
     """``says``: what is answered; ``line``: what follows the word at the prompt. ``words``: older names at the prompt;
-    ``also``: older names in Python."""
+    ``also``: older names in Python; ``certified``: whether an answer has a certificate of its own to be written."""
 
     name: str
     settings: type
@@ -41,6 +41,7 @@ class Door:
     line: str = "FORMULA"
     words: tuple[str, ...] = ()
     also: tuple[str, ...] = ()
+    certified: bool = True
 
     @property
     def examples(self) -> tuple[str, ...]:
@@ -52,7 +53,7 @@ POINTS, TERM = ("find_instance", "find_instances"), "TERM [: FORMULA]"
 _LISTED = (
     Door("eliminate", Elimination, "A quantifier-free formula equivalent to FORMULA."),
     Door("decide", Decision, "Whether a sentence is true, a script satisfiable."),
-    Door("find", ProvedQuestion, "Exact points that satisfy FORMULA.", "[N:] FORMULA", ("instance",), POINTS),
+    Door("find", ProvedQuestion, "Exact points that satisfy FORMULA.", "[N:] FORMULA", ("instance",), POINTS, False),
     Door("solve", ProvedQuestion, "All solutions of FORMULA, case by case.", "[x, y:] FORMULA", also=("reduce",)),
     Door("region", ProvedQuestion, "The set of points that satisfy FORMULA."),
     Door("simplify", ProvedQuestion, "A formula as short as it gets."),
@@ -60,7 +61,7 @@ _LISTED = (
     Door("witnesses", ProvedBlock, "Solutions as terms in the parameters.", also=("parametric_witnesses",)),
     Door("minimize", Optimisation, "The exact least value under CONSTRAINTS.", TERM, ("min",)),
     Door("maximize", Optimisation, "The exact greatest value under CONSTRAINTS.", TERM, ("max",)),
-    Door("optimum", Optimisation, "The least and the greatest value under CONSTRAINTS.", TERM),
+    Door("optimum", Optimisation, "The least and the greatest value under CONSTRAINTS.", TERM, certified=False),
     Door("verify", Limited, "Verify a certificate.", "FILE"),
 )
 DOORS: Mapping[str, Door] = {door.name: door for door in _LISTED}

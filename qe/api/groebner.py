@@ -12,6 +12,7 @@ from qe import arguments
 from qe.api.input import names_typed, read_polynomial
 from qe.api.limits import limits_of, read_under, under
 from qe.api.settings import Optimisation, Parametric, with_settings
+from qe.decomposition.interval import Coordinate, number_of
 from qe.engine.assuming import can_hold, simplified
 from qe.errors import InputError
 from qe.exact.algebraic import RealAlgebraic
@@ -23,7 +24,7 @@ from qe.formula.syntax import FALSE, TRUE, Atom, Formula, Relation
 from qe.formula.traverse import conjuncts
 from qe.groebner.counting import RealRootClassification, classified
 from qe.groebner.question import ParametricSystem
-from qe.groebner.system import ComprehensiveGroebnerSystem, exact_number
+from qe.groebner.system import ComprehensiveGroebnerSystem
 from qe.io.substitution import over_one_ring
 from qe.options import Budget, Options
 from qe.processes.execution import perform
@@ -231,16 +232,9 @@ def _polynomials(given: object, what: str, known: Container[str]) -> list[Poly]:
     ]
 
 
-def algebraic(value: object, what: str) -> RealAlgebraic:
+def algebraic(value: Coordinate, what: str) -> RealAlgebraic:
     """A real algebraic number: ``RealAlgebraic``, an element of a number field, a SymPy or a rational number."""
-    if not isinstance(value, str | int | float) and hasattr(value, "is_number"):
-        from qe.io.sympy_numbers import number_from_sympy
-
-        exact = number_from_sympy(value)
-        if exact is None:
-            raise arguments.wrong(what, "a real algebraic number", value)
-        return exact
-    number = exact_number(value, what)
+    number = number_of(value, what, "a real algebraic number")
     return number if isinstance(number, RealAlgebraic) else RealAlgebraic.rational(number)
 
 

@@ -97,7 +97,14 @@ def note_doubts(given: AnyFormula, formula: Formula, format: str = "text", solve
     if isinstance(given, Formula | Answer):
         return
     text = "\n".join(part for part in (given if isinstance(given, list | tuple) else [given]) if isinstance(part, str))
-    warned(doubts(formula, text, formats.checked(format).value if text else "", solved))
+    kind = formats.kind(text, formats.checked(format)).value if text else ""
+    words = {*re.findall(WORD, text)}.difference(KEYWORDS, names_in(formula)) if kind == "text" else ()
+    notes: tuple[str, ...] = ()
+    if any(len(word) > 1 for word in words):
+        from qe.io.text import understood
+
+        text, notes = understood(text)
+    warned((*notes, *doubts(formula, text, kind, solved)))
 
 
 def warned(notes: Iterable[str]) -> None:
@@ -184,17 +191,13 @@ def of_one_problem(*given: AnyFormula, listed: Collection[str] = ()) -> list[Any
     from qe.io.text import with_products
 
     texts, products = with_products(texts, listed)
-    warned([f"{word} is read as the product {'*'.join(word)}" for word in products])
+    warned(products)
     written = iter(texts)
 
     def put(part: AnyFormula) -> AnyFormula:
-        return (
-            [put(one) for one in part]
-            if isinstance(part, list | tuple)
-            else next(written)
-            if isinstance(part, str)
-            else part
-        )
+        if isinstance(part, list | tuple):
+            return [put(one) for one in part]
+        return next(written) if isinstance(part, str) else part
 
     return [put(one) for one in given]
 
@@ -228,12 +231,10 @@ def read_polynomial(given: AnyFormula, what: str, *, known: Container[str] = ())
 
             return read(given, known=known)
         from qe.io.expressions import Expression
-        from qe.io.sympy import polynomial_from_sympy
+        from qe.io.sympy import term_from_sympy
 
-        if isinstance(given, Expression):
-            value = given.polynomial()
-            return value.poly, Fraction(1, value.den)
-        return polynomial_from_sympy(given)
+        value = (given if isinstance(given, Expression) else Expression(term_from_sympy(given))).polynomial()
+        return value.poly, Fraction(1, value.den)
     except InputError as error:
         raise InputError(f"{what}: a polynomial expected: {error}") from None
 

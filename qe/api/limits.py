@@ -51,12 +51,6 @@ def limits_of(settings: Limited) -> Limits:
     )
 
 
-def reading(formula: AnyFormula, format: str, limits: Limits) -> Formula:
-    """The formula, with what it assumes, read under the limits where reading may take long. Raises as ``posed``."""
-    given = posed(formula, {"format": format}, limits)
-    return given.formula if given.known == TRUE else conj((given.known, given.formula))
-
-
 def posed(
     formula: AnyFormula,
     settings: Mapping[str, Any],

@@ -145,14 +145,16 @@ def _best(
 ) -> AnyOptimum:
     """The optimum of a convex problem by its method, of any other by elimination."""
     limits = limits_of(settings)
+    variables: tuple[str, ...] = ()
     if isinstance(objective, str) and (command := optimum_asked(objective)) is not None:
         goal, objective, more, variables = command
         if goal == -sign:
             raise InputError(f"objective: a {'least' if sign > 0 else 'greatest'} value is asked for here, not there")
         constraints = [constraints, more]
-        parameters = sorted(names_typed([objective, more]) - {*variables}) or parameters
+        parameters = (sorted(names_typed([objective, more]) - {*variables}) if variables else ()) or parameters
     given, assuming = arguments.names(parameters, "parameters"), settings["assuming"]
-    objective, constraints, assuming = of_one_problem(objective, constraints, assuming, listed=given or ())
+    named = {*(given or ()), *variables}
+    objective, constraints, assuming = of_one_problem(objective, constraints, assuming, listed=named)
     read = read_under(limits, partial(read_posed_constraints, constraints, objective), constraints)
     stated = under(*read, assuming, limits, others=names_typed([objective]), numbers=True)
     conditions = stated.restricted

@@ -11,7 +11,7 @@ from functools import partial
 from typing import Any, TypeVar
 
 from qe import arguments
-from qe.api.limits import performed, reading
+from qe.api.limits import performed, posed
 from qe.convex.optimum import exact, minimize
 from qe.decomposition.interval import Coordinate, Interval, Number, number_of
 from qe.engine.run import solve as eliminated
@@ -233,7 +233,7 @@ def _operands(left: Region, right: object, limits: Limits) -> tuple[Formula, For
             )
         given = right.condition
     else:
-        given = reading(right, "text", limits)
+        given = posed(right, {}, limits).restricted
         if strange := [v for v in given.free if v not in left.order]:
             raise InputError(f"a condition on {', '.join(left.order)} expected, {strange[0]} found")
     f, g = over_one_ring(left.condition, given)

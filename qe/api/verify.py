@@ -43,15 +43,8 @@ def verify(
     timeout: float | None = VERIFY_SECONDS,
     core: bool = False,
 ) -> Verdict:
-    """Whether separate code accepts the certificate within ``timeout`` seconds (None: no limit); see ``qe.certify``.
-
-    With ``formula``, also whether it is about that question, or its negation, up to the names of bound variables and
-    the order of conjuncts and disjuncts; if not, it is rejected at ``claim`` (``qe.certify.claims``). With ``core``, a
-    certificate that needs rules of the expert ring (``Certificate.trusts`` names them) is rejected at ``core``.
-
-    Large certificates, and all that were read from text, are checked in a process of their own, which is killed at the
-    limit. Past it, and where the certificate asks for numbers out of reach, the verdict is neither accepted nor
-    ``decided``. Raises ``InputError`` for what is no certificate and for a limit that is not positive.
+    """As ``qe.api.eliminate.verify`` says, of a question that was read. Large certificates, and all that were read from
+    text, are checked in a process of their own, which is killed at the limit.
     """
     if not isinstance(certificate, Certificate):
         return kernel_verdict(certificate)  # which says what was expected

@@ -23,7 +23,6 @@ from qe.cli.options import REPORT, Json, checked, command, door
 from qe.cli.shell import check_writable, enter, examples, limited, remaining, write_file
 from qe.cli.source import ProofFormat, Source, no_file, read_source
 from qe.cli.work import Reply, Request
-from qe.errors import InputError
 from qe.io.formats import READABLE, Format
 from qe.options import VERIFY_SECONDS
 
@@ -156,8 +155,6 @@ def _optimise(name: str, greatest: bool | None) -> None:
     ) -> int:
         from qe.cli import optimize as cli_optimize
 
-        if greatest is None and settings["certificate"] is not None:
-            raise InputError("--certificate: qe minimize and qe maximize write one each")
         work = partial(cli_optimize.optimize, goal=cli_optimize.Goal(objective, greatest, parameters))
         return answered(work, constraints, format, settings)
 
@@ -272,7 +269,7 @@ def answered(
 
     Options and files are checked before anything is read.
     """
-    files["certificate"] = certificate = given["certificate"]
+    files["certificate"] = certificate = given.get("certificate")
     settings = checked({name: value for name, value in given.items() if name not in REPORT})
     check_writable(certificate)
     text = replace(read_source(source, format), total_division=settings.pop("total_division", False))

@@ -11,7 +11,7 @@ from typing import Annotated, Any
 import typer
 
 from qe import arguments
-from qe.api.doors import DOORS
+from qe.api.doors import DOORS, Door
 from qe.api.settings import Elimination, settings_in
 from qe.cli.shell import examples
 from qe.options import Method, Projection
@@ -51,19 +51,20 @@ REPORT = {
 
 
 def command(
-    app: typer.Typer, kind: type, short: str, *shown: str, also: tuple[str, ...] = (), name: str | None = None
+    app: typer.Typer, kind: type, short: str, *shown: str, also: tuple[str, ...] = (), row: Door | None = None
 ) -> Callable[[Command], Command]:
-    """Add a command that ends in ``**settings``: those of this class, and ``also`` these, that it does not list itself;
-    one that may have a certificate takes what is in ``REPORT``, too. ``shown``: examples for its help."""
+    """Add a command that ends in ``**settings``: those of this class, ``also`` these, and what is in ``REPORT`` if it
+    may have a certificate. ``shown``: examples for its help; ``row``: its door."""
 
     def added(function: Command) -> Command:
         signature = inspect.signature(function, eval_str=True)
         listed = [p for p in signature.parameters.values() if p.kind is not p.VAR_KEYWORD]
         given = ELSEWHERE | {p.name for p in listed}
         names = [name for name in (*also, *settings_in(kind)) if name not in given]
-        options = [*(REPORT.values() if "check" in settings_in(kind) else ()), *map(option, names)]
+        report = [option for key, option in REPORT.items() if key != "certificate" or row is None or row.certified]
+        options = [*(report if "check" in settings_in(kind) else ()), *map(option, names)]
         function.__signature__ = signature.replace(parameters=[*listed, *options])  # type: ignore[attr-defined]
-        app.command(name, short_help=short, epilog=examples(*shown) if shown else None)(function)
+        app.command(row.name if row else None, short_help=short, epilog=examples(*shown) if shown else None)(function)
         return function
 
     return added
@@ -72,7 +73,7 @@ def command(
 def door(app: typer.Typer, name: str, *, also: tuple[str, ...] = ()) -> Callable[[Command], Command]:
     """Add the command of a row of ``qe.api.doors``."""
     listed = DOORS[name]
-    return command(app, listed.settings, listed.says, *listed.examples, also=also, name=name)
+    return command(app, listed.settings, listed.says, *listed.examples, also=also, row=listed)
 
 
 @functools.cache

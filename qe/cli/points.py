@@ -6,7 +6,6 @@ from dataclasses import replace
 
 from qe.cli.source import Source
 from qe.cli.work import Reply, Request, in_json, read_question
-from qe.errors import Unable
 from qe.exact.number import point_text
 from qe.exact.radicals import radical_text
 from qe.processes.channel import Channel
@@ -16,8 +15,6 @@ def find(channel: Channel, request: Request, n: int, seed: int) -> Reply:
     """``qe find``: a point a line; ``none`` where there is no point."""
     import qe.api.solve as api
 
-    if request.certificate:
-        raise Unable("points have no certificate of their own; --check proves them")
     formula, keywords = request.read(channel)
     points = api.find(formula, n, seed=seed, **keywords)
     listed = [{name: str(value) for name, value in point.items()} for point in points]

@@ -21,7 +21,9 @@ from qe.api.doors import DOORS
 from qe.api.settings import Elimination, settings_in
 from qe.cli.options import ELSEWHERE, checked
 from qe.errors import InputError, QEError, Unable
+from qe.exact.number import point_text
 from qe.extras import lacking
+from qe.spelling import quoted
 
 Ask = Callable[[str], str]
 
@@ -126,7 +128,7 @@ class Session:
             lines.append(answer.why_unchecked or "checked")
         if answer.witness:
             kind = "counterexample" if answer.truth is False else "witness"
-            lines.append(f"{kind}: " + ", ".join(f"{name} = {value}" for name, value in answer.witness.items()))
+            lines.append(f"{kind}: {point_text(answer.witness)}")
         return "\n".join(lines)
 
     def _decide(self, rest: str) -> str:
@@ -145,8 +147,7 @@ class Session:
         )
         if not points:
             return "there is none"
-        said = [" and ".join(f"{name} = {value}" for name, value in point.items()) or "true" for point in points]
-        return self._keep(None, " or\n".join(said))
+        return self._keep(None, " or\n".join(point_text(point, " and ") or "true" for point in points))
 
     def _equivalent(self, rest: str) -> str:
         one, sign, two = rest.partition(";")
@@ -165,8 +166,8 @@ class Session:
         region = qe.region(rest, self.settings.get("order"), **self._those_of("region"))
         if region.is_empty:
             return self._keep(region, "false")
-        lines = [f"dimension {region.dimension} in {', '.join(region.order)}"]
-        lines += [f"{name}: {region.bounds(name)!r}".replace("Interval", "") for name in region.order]
+        lines = [f"dimension {region.dimension} in {', '.join(map(quoted, region.order))}"]
+        lines += [f"{quoted(name)}: {region.bounds(name)!r}".replace("Interval", "") for name in region.order]
         lines += [f"cell: {cell.brief()}" for cell in region.cells]
         self._keep(region, str(region.formula))
         return "\n".join(lines)
@@ -182,8 +183,7 @@ class Session:
         best = getattr(qe, door)(term, conditions.strip() or "true", **self._those_of("minimize"))
         if best.value is None:
             return str(best.status.name.lower())
-        point = ", ".join(f"{name} = {value}" for name, value in best.point.items())
-        at = "not attained" if best.attained is False else point
+        at = "not attained" if best.attained is False else point_text(best.point)
         self._keep(None, str(best.value))
         near = "" if best.is_optimal or best.attained is False else f"{best.status.value}: "
         return f"{near}{best.value}  ({at})"

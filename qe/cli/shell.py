@@ -65,10 +65,13 @@ def enter(app: typer.Typer, argv: Sequence[str] | None, *, name: str) -> int:
     take_leading_minus(command)
 
     def reported(status: str, message: str, code: int) -> int:
-        data = {"status": status, "message": " ".join(message.split()), "exit": code}
-        lost = _put(data) if "--json" in words else None
-        if lost is not None:
-            return _unheard(name, lost)
+        if "--json" in words:
+            from qe.cli.work import in_json
+
+            try:
+                print(in_json({"status": status, "message": " ".join(message.split()), "exit": code}), flush=True)
+            except OSError as error:
+                return _unheard(name, error)
         return fail(name, _PREFIX.get(status, "") + message, code)
 
     if misspelt := _misspelt(command, words) and _misspelt(get_command(app), words):
@@ -155,17 +158,6 @@ def _raising_at_termination() -> signal.Handlers | None:
 def examples(*lines: str) -> str:
     """What stands below the help of a command, line by line as it can be typed."""
     return "\n".join(("\b", "Examples:", *(f"  {line}" for line in lines)))
-
-
-def _put(data: dict[str, object]) -> OSError | None:
-    """Write an object on stdout; the error that kept it from being written."""
-    from qe.cli.work import in_json
-
-    try:
-        print(in_json(data), flush=True)
-    except OSError as error:
-        return error
-    return None
 
 
 @contextmanager

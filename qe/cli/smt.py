@@ -191,21 +191,16 @@ class Solver(Checks):
                 return self.check()
             case "push" | "pop":
                 self.move(head, command)
-                return None
             case "reset":
                 self.options.clear()
                 self.restart()
-                return None
             case "reset-assertions":
                 self.reset_assertions()
-                return None
             case "set-logic" | "set-info":
                 if [show(item) for item in rest[:1]] == [":status"]:
                     self.status = show(rest[1]) if len(rest) > 1 else ""
-                return None
             case "set-option":
                 self.options[_word(rest, 0)] = show(rest[1]) if len(rest) > 1 else "true"
-                return None
             case "get-option":
                 return self.options.get(_word(rest, 0), "unsupported")
             case "get-info":
@@ -214,8 +209,9 @@ class Solver(Checks):
                 return show(rest[0]) if rest else '""'
             case "exit":
                 self.done = True
-                return None
-        return self.question(head, command)
+            case _:
+                return self.question(head, command)
+        return None
 
     def question(self, head: str, command: list[Expression]) -> str | None:
         match head:

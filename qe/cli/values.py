@@ -71,7 +71,7 @@ def _is_plain(value: object, annotation: Any, asked: Any) -> bool:
     """Whether the value is of the type asked for, or a text that means just one value of it."""
     if value is None:
         return True
-    if asked.parser is not None or asked.min is not None or asked.max is not None or not isinstance(annotation, type):
+    if any((asked.parser, asked.min, asked.max, asked.exists, asked.writable)) or not isinstance(annotation, type):
         return False
     text = value if type(value) is str else ""
     if annotation is str:
@@ -82,20 +82,7 @@ def _is_plain(value: object, annotation: Any, asked: Any) -> bool:
         return type(value) is float or _DECIMAL.fullmatch(text) is not None
     if annotation is Path:
         named = isinstance(value, Path) or (text.isprintable() and text != "")
-        return named and _any_path_will_do(asked, str(value))
+        return named and (not os.path.exists(str(value)) or os.access(str(value), os.R_OK))
     if issubclass(annotation, Enum):
         return isinstance(value, annotation) or text in [member.value for member in annotation]
     return False
-
-
-def _any_path_will_do(asked: Any, path: str) -> bool:
-    """Whether a parameter asks nothing of its path but that it can be read where it exists, and this one does so."""
-    conditions = (
-        asked.exists,
-        asked.writable,
-        asked.resolve_path,
-        asked.path_type,
-        not asked.file_okay,
-        not asked.dir_okay,
-    )
-    return not any(conditions) and (not os.path.exists(path) or os.access(path, os.R_OK))

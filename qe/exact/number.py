@@ -45,9 +45,9 @@ def _escaped(name: str) -> str:
     return re.sub(r"([_#$%&{}])", r"\\\1", name).replace("^", r"\char94 ").replace("~", r"\sim ")
 
 
-def point_text(point: Mapping[str, object]) -> str:
+def point_text(point: Mapping[str, object], between: str = ", ") -> str:
     """A point in one line: ``x = 1/2, y = sqrt(2)``, the names as the text syntax reads them."""
-    return ", ".join(f"{quoted(name, point)} = {value}" for name, value in point.items())
+    return between.join(f"{quoted(name, point)} = {value}" for name, value in point.items())
 
 
 def simplest(value: Number) -> Number:

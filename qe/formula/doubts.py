@@ -8,7 +8,7 @@ from collections.abc import Collection, Iterable, Iterator, Sequence
 
 from qe.formula.syntax import Exists, ForAll, Formula
 from qe.formula.traverse import children
-from qe.spelling import KEYWORDS, WORD, is_product
+from qe.spelling import WORD, is_product
 
 _NUMBERS = ("e", "i", "E", "I")
 """Letters that are numbers to many readers, and variables here."""
@@ -31,6 +31,10 @@ def doubts(formula: Formula, text: str = "", format: str = "", solved: Sequence[
         occurring = {*free}
         unused |= dict.fromkeys(name for name in variables if name not in occurring)
         joined |= {**joined_names(free, variables), **_made_of(free)} if typed else {}
+    if typed and "*" not in typed:  # x^2 + px + q = 0, b^2 = 4ac
+        joined |= joined_names(formula.free, [name for name in formula.free if len(name) == 1])
+        behind_numbers = re.findall(r"(?<![\w.])[0-9]+([^\W\d_]{2,3})\b", typed)
+        joined |= {name: "*".join(name) for name in behind_numbers if name in formula.free and name.isalpha()}
     if unused and format in _WRITTEN_OUT:  # what is used as well cancels
         bound = Counter(name for variables, _ in blocks for name in variables)
         written = Counter(_WORD.findall(text))
@@ -40,12 +44,8 @@ def doubts(formula: Formula, text: str = "", format: str = "", solved: Sequence[
         meant = next((product for name, product in joined.items() if variable in name), None)
         notes.append(f"{variable} does not occur" + (f"; did you mean {meant}?" if meant else ""))
     for name, product in joined.items():
-        if unused.keys().isdisjoint(name):
+        if unused.keys().isdisjoint(name) and f"`{name}`" not in text:
             notes.append(f"{name} is one name; a product is written {product}")
-    letters = {name for name in names if len(name) == 1}
-    words = {*_WORD.findall(typed)} if letters else ()
-    split = {word for word in words if len(word) > 1 and {*word} <= letters and word not in names}
-    notes += [f"{word} is read as the product {'*'.join(word)}" for word in sorted(split - KEYWORDS)]
     read = [name for name in names if len(name) == 1 and re.search(rf"(?<![\w`∃∀]){name}\(", typed)]
     notes += [f"{name}(…) is the product {name}*(…)" for name in read]
     if typed and not _RELATED.search(typed):

@@ -186,17 +186,9 @@ class ComprehensiveGroebnerSystem:
 
     def _values(self, point: Numbers) -> dict[str, Number]:
         names = self.parameters
-        if isinstance(point, Mapping):
-            given = arguments.by_name(point, "point")
-        else:
-            numbers = arguments.by_place(point, "point")
-            if len(numbers) != len(names):
-                raise InputError(f"point: {len(names)} numbers expected, one for each parameter, {len(numbers)} found")
-            given = dict(zip(names, numbers, strict=True))
+        given = arguments.point(point, names)
         if missing := [n for n in names if n not in given]:
             raise InputError(f"point: a number for {', '.join(missing)} expected, none found")
-        if unknown := [n for n in given if n not in names]:
-            raise InputError(f"point: numbers for the parameters {', '.join(names)} expected, {unknown[0]} found")
         return {name: exact_number(given[name], f"point: {name}") for name in names}
 
     def _place(self, values: Mapping[str, Number]) -> Point:

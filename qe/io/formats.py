@@ -80,14 +80,18 @@ def read_posed(
         raise arguments.wrong("text", "a text", text)
     if not chosen.readable:
         raise InputError(f"the format {chosen.value} can only be written; readable: {', '.join(READABLE)}")
-    if chosen is Format.TEXT:
-        chosen = next((other for other, begins in _BEGINNINGS.items() if begins.match(text)), chosen)
+    chosen = kind(text, chosen)
     module, total = _module(chosen), arguments.flag(total_division, "total_division")
     if hasattr(module, "read_posed"):
         both: tuple[Formula, Formula] = module.read_posed(text, source=source)
         return both
     more = {"total_division": True} if total and chosen is Format.TEXT else {}
     return module.read(text, source=source, **more), TRUE
+
+
+def kind(text: str, chosen: Format) -> Format:
+    """The format of a text that is said to be in the chosen one."""
+    return next((f for f, begins in _BEGINNINGS.items() if chosen is Format.TEXT and begins.match(text)), chosen)
 
 
 def write(formula: Formula, format: str | Format = Format.TEXT) -> str:

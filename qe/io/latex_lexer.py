@@ -84,7 +84,8 @@ _MARK = re.compile(r"(?<!/)\\(?:[A-Za-z]|[},;!|])|\$|[_^]\{")
 _BACKQUOTED = re.compile(QUOTED)
 _GAP = r"(?:\s|\\[,;:! ]|\\q?quad\b)*"
 _NEXT = re.compile(
-    rf"{_GAP}(?:[A-Za-z]|\\(?:{_LETTERS.pattern})\b)(?:_(?:\{{(?:\w+|\\mathrm\{{\d+\}})\}}|\w))?'*{_GAP}"
+    rf"{_GAP}(?:[^\W\d_]|\\(?:{_LETTERS.pattern})\b|\\(?:{'|'.join(_FONTS)})\{{[^{{}}]*\}})"
+    rf"(?:_(?:\{{(?:\w+|\\mathrm\{{\d+\}})\}}|\w))?'*{_GAP}"
     r"(?:[,.:(\[]|\\(?:in|colon|exists|forall|mid)\b|(?:[<>]|\\(?:le|ge)\w*)[^:\\]*(?::|\\(?:[;: ]|colon|q?quad))|$)"
 )
 """Another variable of a quantifier behind a comma, not the body."""

@@ -158,10 +158,8 @@ class Lowering:
         if name in holds.bound or has_root_atoms(holds):
             raise self.fail(f"{name} is bound once more inside, or compared with root(...)", at)
         spare = [self.values.named(("quantity", id(node), i), lambda name: None) for i in range(max(count, 2))]
-        if kind == "F":
-            return infinitely_many(name, holds, spare)
-        if kind == "G":
-            return almost_all(name, holds, spare)
+        if kind in ("F", "G"):
+            return (infinitely_many if kind == "F" else almost_all)(name, holds, spare)
         if kind == "L":
             return at_least(count, name, holds, spare)
         return connected(name, holds, denied, spare) if kind == "C" else exactly(count, name, holds, denied, spare)

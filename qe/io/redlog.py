@@ -13,14 +13,15 @@ from collections.abc import Iterator
 from typing import Any
 
 from qe.errors import InputError
-from qe.exact.ring import Poly, Ring
-from qe.formula.build import conj, convert
+from qe.exact.ring import Poly
+from qe.formula.build import conj
 from qe.formula.notation import Notation
 from qe.formula.syntax import Formula, Relation
 from qe.io import surface as s
 from qe.io.lowering import lower
 from qe.io.names import Renaming, check_name
 from qe.io.parser import FORMULA, INFIX, NOT, PREFIX, REPLIED, Parser, Prefix, parsed
+from qe.io.substitution import over_one_ring
 from qe.io.text_errors import Failing, SyntaxFailure
 from qe.io.tokens import END, REDLOG, SIGNS, Token, kinds, matches
 
@@ -62,9 +63,8 @@ def read_posed(text: str, *, source: str = "<text>") -> tuple[Formula, Formula]:
 
     Raises ``ParseError`` with line and column."""
     fail = Failing(text, source)
-    formula, *known = (lower(part, fail) for part in parsed(_Parser, text, fail))
-    ring = Ring.of(dict.fromkeys(name for f in (formula, *known) if f.ring is not None for name in f.ring.names))
-    return convert(formula, ring), conj(convert(f, ring) for f in known)
+    formula, *known = over_one_ring(*(lower(part, fail) for part in parsed(_Parser, text, fail)))
+    return formula, conj(known)
 
 
 def _is_closed(text: str) -> bool:

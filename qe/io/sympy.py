@@ -19,7 +19,6 @@ from qe import arguments
 from qe.errors import InputError, NoTruthValue
 from qe.exact.algebraic import real_roots
 from qe.exact.field import FieldElement
-from qe.exact.ring import Poly
 from qe.formula.build import JOINS, conj, exists, forall, implies
 from qe.formula.operators import Connected
 from qe.formula.syntax import TRUE, Formula
@@ -157,22 +156,10 @@ def term_from_sympy(expression: object) -> s.Term:
     """The surface tree of a SymPy expression."""
     import sympy
 
-    return Reader(sympy).real(_basic(expression, "a SymPy expression"))
-
-
-def polynomial_from_sympy(expression: object) -> tuple[Poly, Fraction]:
-    """A polynomial p and a rational s: the expression is s*p.
-
-    Raises ``InputError`` for what is no polynomial over Q.
-    """
-    import sympy
-
-    whole = _basic(expression, "a SymPy expression")
     try:
-        value = lower_term(Reader(sympy).real(whole), _failing(whole))
+        return Reader(sympy).real(_basic(expression, "a SymPy expression"))
     except RecursionError:
         raise InputError("the expression is nested too deeply") from None
-    return value.poly, Fraction(1, value.den)
 
 
 def term_to_sympy(term: s.Term) -> Any:

@@ -11,8 +11,9 @@ x. A name is a word, possibly with primes, or anything between backquotes: `` `m
 from __future__ import annotations
 
 import re
-from collections import Counter
+from collections import deque
 from collections.abc import Collection, Container, Sequence
+from contextlib import suppress
 from fractions import Fraction
 from typing import cast
 
@@ -23,8 +24,9 @@ from qe.io.lowering import lower, lower_term
 from qe.io.parser import TERM, parsed
 from qe.io.surface import FUNCTIONS, Comparison, Every, Meet, Name, Node, Number, Quantification, Term
 from qe.io.text_errors import Failing, SyntaxFailure
-from qe.io.text_lexer import COMMANDS, KEYWORDS
+from qe.io.text_lexer import COMMANDS, KEYWORDS, State, tokens
 from qe.io.text_parser import is_latex, parser_of
+from qe.io.text_words import plainly
 from qe.io.tokens import without_collections
 from qe.io.total import Total
 from qe.spelling import CONSTANTS as CONSTANTS
@@ -51,7 +53,7 @@ def read(text: str, *, source: str = "<text>", known: Container[str] = (), total
     of, as in SMT-LIB, and the formula holds if it holds for some choice of these values. Raises ``ParseError``, one
     line with line, column and what was expected.
     """
-    text = _quoting(text, known)
+    text = _written_out(_quoting(text, known))
     fail = Failing(text, source)
     total = Total() if total_division else None
     with without_collections(text):
@@ -61,7 +63,6 @@ def read(text: str, *, source: str = "<text>", known: Container[str] = (), total
 
 def _node(text: str, fail: Failing) -> Node:
     """What a text is; terms alone, one or a list, are equations with zero, as for SymPy's ``solve``."""
-    text = _written_out(text)
     try:
         return cast(Node, parsed(parser_of(text), text, fail))
     except ParseError:
@@ -75,7 +76,8 @@ def _node(text: str, fail: Failing) -> Node:
 
 
 def _written_out(text: str) -> str:
-    """The text with terms in the place of the capitals that it ends with: ``D > 0 where D = b^2 - 4*a*c``."""
+    """The text as a formula, without the capitals that it ends with: ``D > 0 where D = b^2 - 4*a*c``."""
+    text = plainly(text)[0]
     where = _WHERE.fullmatch(text) if "where" in text else None
     if where is None:
         return text
@@ -104,8 +106,7 @@ def read_polynomial(text: str, *, source: str = "<text>", known: Container[str] 
 def read_graph(name: str, text: str) -> Formula:
     """Where a variable of this name has the value of the term that ``text`` is; names and errors as for ``read``."""
     fail = Failing(text, "<text>")
-    term = cast(Term, parsed(parser_of(text), text, fail, TERM))
-    equation = Comparison([Name(name, -1), term], [Relation.EQ], -1)
+    equation = Comparison([Name(name, -1), read_term(text)], [Relation.EQ], -1)
     return lower(equation, fail, meet=_no_constants(fail, (name,)))
 
 
@@ -116,30 +117,32 @@ def read_term(text: str) -> Term:
 
 def read_node(text: str) -> Node:
     """The formula that ``text`` is, as a surface tree. Names and errors as for ``read``."""
+    text = _written_out(text)
     return _node(text, Failing(text, "<text>"))
 
 
 def outermost(text: str) -> tuple[bool, tuple[str, ...]] | None:
     """Whether the outermost quantifier of a text that can be read is universal, and its names; None without one."""
+    text = _written_out(text)
     node = parsed(parser_of(text), text, Failing(text, "<text>"))
     return (node.universal, tuple(node.names)) if isinstance(node, Quantification) else None
 
 
 def solved_for(text: str) -> tuple[str, ...] | None:
-    """The variables of a command of Mathematica: x and y of ``Reduce[f, {x, y}, Reals]``; None where there are none."""
+    """The variables of a command, x and y of ``Reduce[f, {x, y}, Reals]``, or of a question in words; None without."""
     asked = _ASKED.fullmatch(text)
-    return None if asked is None else tuple(re.findall(WORD, asked[1]))
+    return plainly(text)[1] or None if asked is None else tuple(re.findall(WORD, asked[1]))
 
 
 def optimum_asked(text: str) -> tuple[int, str, str, tuple[str, ...]] | None:
-    """1 or -1, the objective, the constraints and the variables of ``Minimize[{f, c}, {x, y}]`` or ``Maximize``, and of
-    ``minimize f subject to c`` (0 without its first word)."""
+    """1 or -1, the objective, the constraints and the variables of ``Minimize[{f, c}, {x, y}]`` or ``Maximize``; for
+    ``minimize f subject to c`` (0 without its first word) all are variables, and none are told."""
     goal = _GOAL.match(text)
     said = _SUBJECT.fullmatch(text, goal.end() if goal else 0)
     if goal or said:
         word, objective = goal[1].lower() if goal else "", text[goal.end() :] if goal else text
         objective, conditions = (said[1], said[2]) if said else (objective, "true")
-        return (word == "min") - (word == "max"), objective, conditions, (*re.findall(WORD, text),)
+        return (word == "min") - (word == "max"), objective, conditions, ()
     if (command := _OPTIMUM.fullmatch(text)) is None:
         return None
     objective, *constraints = [part for part in _parts(command[2]) if part != "Reals"]
@@ -151,23 +154,37 @@ def optimum_asked(text: str) -> tuple[int, str, str, tuple[str, ...]] | None:
 
 
 def with_products(texts: Sequence[str], listed: Collection[str] = ()) -> tuple[list[str], list[str]]:
-    """The texts of one problem without quantifiers, with the signs of the products that the lexer would read in them as
-    one text whose variables are the ``listed`` ones; these products; and listed names between backquotes."""
+    """The texts of one problem with the signs of the products that the lexer reads in them as one text whose variables
+    are the ``listed`` ones, notes on these; and listed names between backquotes."""
     texts = [_quoting(text, listed) for text in texts]
-    whole = "\n".join(texts)
-    words = Counter(re.findall(WORD, whole))
-    if (
-        not {"\\", "∃", "∀"}.isdisjoint(whole)
-        or "(assert" in whole
-        or any(KEYWORDS.get(word) == "QUANTIFIER" for word in words)
-    ):
-        return texts, []  # quantifiers: the lexer knows more
-    letters = () if "*" in whole else {*words, *listed}
-    lone = [name for name in listed if len(name) == 1 and not words[name]]
-    names = words.keys() - {*KEYWORDS, *FUNCTIONS, *CONSTANTS, *listed}
-    made = {word: "*".join(word) for word in sorted(names) if is_product(word, letters, lone)}
-    written = re.compile(rf"{QUOTED}|/\s*{WORD}|{WORD}")  # behind a division they stay names
-    return [written.sub(lambda word: made.get(word[0], word[0]), text) for text in texts], [*made]
+    whole = "\n;\n".join(texts)
+    words = {*re.findall(WORD, whole)}
+    products: set[str] = set()
+    if "(assert" not in whole and any(len(word) > 1 and word.isalpha() for word in words):
+        products = _products(whole, {name for name in listed if len(name) == 1} - words)
+    made = {word: "*".join(word) for word in products}
+    texts = [re.sub(rf"{QUOTED}|{WORD}", lambda word: made.get(word[0], word[0]), text) for text in texts]
+    return texts, _noted(products)
+
+
+def _products(text: str, letters: Collection[str] = ()) -> set[str]:
+    """The words that are read as products, ``letters`` being variables that are solved for; none in what is wrong."""
+    state = State(text)
+    state.letters.update(letters)
+    with suppress(SyntaxFailure):
+        deque(() if is_latex(text) else tokens(text, state), maxlen=0)
+        return state.products
+    return set()
+
+
+def _noted(products: Collection[str]) -> list[str]:
+    return [f"{word} is read as the product {'*'.join(word)}" for word in sorted(products)]
+
+
+def understood(text: str) -> tuple[str, tuple[str, ...]]:
+    """A text, or what is read where it asks in words, with notes on this and on what is read as a product."""
+    meant, products = plainly(text)[0], _noted(_products(_written_out(text)))
+    return meant, (*([f"read as {meant}"] if meant != text else ()), *products)
 
 
 def _parts(text: str) -> list[str]:

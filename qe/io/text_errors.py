@@ -88,11 +88,11 @@ def unexpected_token(text: str, kind: str, value: str, at: int, expected: Collec
     if kind == "$END":
         if "Root[" in before:
             return SyntaxFailure("Root[#^3 - 2 &, 1] is written root(1, x^3 - 2)", before.rindex("Root["))
-        opening = _unmatched_opening(text)
+        opening = unmatched_opening(text)
         if opening is not None and "CLOSE" in expected:
             return SyntaxFailure("unbalanced brackets: this '(' is never closed", opening)
         return SyntaxFailure("the text ends too early", len(before), wanted)
-    if kind == "CLOSE" and "CLOSE" not in expected and _unmatched_opening(text[:at]) is None:
+    if kind == "CLOSE" and "CLOSE" not in expected and unmatched_opening(text[:at]) is None:
         return SyntaxFailure("unbalanced brackets: this ')' has no partner", at)
     if value == "=>":
         return SyntaxFailure("'=>' is not used here; write >= for a comparison or -> for an implication", at + 1)
@@ -221,7 +221,7 @@ def _expected(kinds: Collection[str]) -> str:
     return " or ".join(parts)
 
 
-def _unmatched_opening(text: str) -> int | None:
+def unmatched_opening(text: str) -> int | None:
     """The offset of the innermost '(' that has no ')' in ``text``; quoted names and comments are skipped."""
     open_at: list[int] = []
     for match in re.finditer(rf"#[^\n]*|{QUOTED}|[()]", text):

@@ -19,7 +19,6 @@ from qe.io.text_words import BEHIND, LISTED, NO_VARIABLES, QUANTITY, SIGNED, SOR
 from qe.io.tokens import Token, kinds
 from qe.spelling import CONSTANTS, PI, QUOTED, WORD, WORDS_FOR_PI, is_product, unquoted
 
-_PREFIXES = r"(?:(?:E|A|ex|all|exists|forall)\s+|[∃∀]\s*|[EA](?=[a-z][0-9]*\s*\)))"
 KEYWORDS = kinds("""
 QUANTIFIER ex exists Ex Exists EXISTS all forall All ForAll Forall FORALL
 AND and AND
@@ -89,13 +88,12 @@ _TOKEN = re.compile(
     rf"|(?P<QUANTITY>(?:{THERE}\s+|[Ff]or\s+)?(?:{QUANTITY})(?=\s+{LISTED}\s*(?:[.:,]|[<>=]=?|/=|in\b|∈|{THAT})))"
     rf"|(?P<NONE>∄|{THERE}\s+no\b)"
     rf"|(?P<UNIQUE>(?:∃|\b[Ee]xists|\bex)\s*!(?!=)|(?:{THERE}|[Ee]xists)\s+(?:an?\s+)?unique\b)"
-    rf"|(?P<PREFIX>\(\s*{_PREFIXES}{LISTED}\s*(?:,\s*{LISTED}\s*)*\)(?=\s*[(\[]))"
     rf"|(?P<COMMAND>(?:{'|'.join(COMMANDS)})(?=\[))\b"
     r"|(?P<EVERY>(?:[Ff]or\s+(?:all|every|each|any|arbitrary)|[Gg]iven\s+any)\b)"
     rf"|(?P<SOME>[Ff]or\s+some\b|{THERE}\b(?:\s+an?\b(?!\s+(?:in\b|{THAT}))(?=\s+{LISTED}))?)"
     rf"|(?P<THAT>{THAT})"
     r"|(?P<NOTIN>not\s+in\b|∉)"
-    rf"|(?P<QUANTIFIER>[EA](?=\s+{LISTED}\s*(?:,\s*{LISTED}\s*)*[.:]))\b"
+    rf"|(?P<QUANTIFIER>[EA](?=\s+{LISTED}\s*(?:,\s*{LISTED}\s*)*(?:[.:]|\)\s*[(\[])|[a-z][0-9]*\s*\)\s*[(\[]))"
     rf"|(?P<CALL>(?:{'|'.join(_CALLS)})(?=\s*[(\[]))\b"
     rf"|(?P<NAME>{WORD})"
     r"|(?P<NUMBER>(?:[0-9]+(?:\.[0-9]*)?|\.[0-9]+)(?:[eE][+-]?[0-9]+)?|[¼-¾⅐-⅞↉])"
@@ -117,7 +115,9 @@ _RAISED = str.maketrans("⁻⁰¹²³⁴⁵⁶⁷⁸⁹", "-0123456789")
 OPERAND_ENDS = frozenset(("NAME", "NUMBER", "CLOSE", "RIGHT", "END", "CLOSEBAR", "INFINITY", "REALS", "TRUE", "FALSE"))
 """Tokens after which a term or a formula may be complete."""
 
-_MATHEMATICA = re.compile(r"\b[A-Z][A-Za-z]+\[")  # where 2/3 a is two thirds of a
+_MATHEMATICA = re.compile(r"\b[A-Z][A-Za-z]+\[")  # where 2/3 a is two thirds of a, and ab a name
+_UNDIVIDED = re.compile(rf"[/÷√]\s*({WORD})")
+"""What would be divided where it is read as a product."""
 _HEXADECIMAL = re.compile(r"0[xX][0-9a-fA-F]")
 _NEXT_NAME = re.compile(rf"\s*({LISTED})\s*(?=[,.:()\[∈∃∀]|{LISTED}|$)")
 _NEXT_BOUNDED = re.compile(
@@ -131,6 +131,12 @@ _VARIABLE = re.compile(
     rf"(?:^|[-+*/^(\[{{<>=≤≥≠,.:&|]|\b(?:and|or|not)\b)\s*({WORD})(?=\s*(?:[\^*≤≥≠]|/(?!\\)|=(?!>)|<(?!-|=>)|>))"
 )
 """A name alone in front of an operator."""
+_LIST = rf"{LISTED}(?:\s*,?\s*{LISTED})*"
+_BOUND = re.compile(
+    rf"(?:[∃∀]|\b(?:{'|'.join(word for word in KEYWORDS if KEYWORDS[word] == 'QUANTIFIER')}))\s*[(\[]\s*({_LIST})\s*,"
+    rf"|\{{\s*\(?\s*({_LIST})\s*(?:\}}|\)?\s*(?:∈|in\b|\||:(?!=)))"
+)
+"""What is quantified in brackets or listed in braces: ``ForAll[x, …]``, ``{x, y}``, ``{(x, y) | …}``."""
 _OPENS, _CLOSING = frozenset(("OPEN", "LEFT", "BEGIN")), frozenset(("CLOSE", "RIGHT", "END"))
 _FORMULAS = frozenset(kinds("_ RELATION IN AND OR NOT IMPLIES IFF QUANTIFIER TRUE FALSE COMMA DOT THEN ELSE"))
 """Tokens that terms do not have; all but relations begin another comparison."""
@@ -142,9 +148,9 @@ _SHORT = frozenset(("ex", "Ex", "all", "All", "E", "A"))
 """Quantifiers whose variables end with a dot; behind the others a comma may end them too: ``forall x, x^2 >= 0``."""
 
 
-def tokens(text: str) -> Iterator[Token]:
+def tokens(text: str, state: State | None = None) -> Iterator[Token]:
     """The tokens of a text. Raises ``SyntaxFailure`` where there is none."""
-    state = State(text)
+    state = State(text) if state is None else state
     at, end, match = 0, len(text.rstrip("; \t\r\n")), _TOKEN.match
     if end and text[end - 1] == ".":
         end -= 1  # a full stop
@@ -182,8 +188,6 @@ def tokens(text: str) -> Iterator[Token]:
             yield from state.raised(value.translate(_RAISED), at)
         elif kind == "CALL":
             yield from state.put(_CALLS[value], value, at)
-        elif kind == "PREFIX":
-            yield from state.prefix(value, at)
         elif kind in ("EVERY", "SOME"):
             yield from state.put("QUANTIFIER", "forall" if kind == "EVERY" else "exists", at)
         elif kind in ("QUANTITY", "UNIQUE"):
@@ -267,10 +271,12 @@ class State:
         self.variables: set[str] | None = None
         behind = BEHIND.search(text)
         self.bound: set[str] = {*re.findall(LISTED, behind[1])} if behind else set()
+        for match in _BOUND.finditer(text):
+            self.bound |= {*re.findall(LISTED, match[1] or match[2])}.difference(WORDS_FOR_PI)
         self.letters = {name for name in self.bound if len(name) == 1}
         self.words: Counter[str] | None = None
         self.alone = self.names = Counter[str]()
-        self.products: set[str] = set()
+        self.products, self.kept = set[str](), set[str]()
 
     def put(self, kind: str, value: str, at: int) -> Iterator[Token]:
         """The token, with the sign of a product in front of it where that is left out."""
@@ -357,35 +363,24 @@ class State:
         one is the variable of a quantifier that stands nowhere else (``ex x. ax^2 + b = 0``); or it stands behind a
         number alone and its letters elsewhere: ``x^2 - 2mx + m > 0``.
 
-        Behind a division it stays a name."""
+        What stands behind a division or the sign of a root is a name everywhere; Mathematica has names alone."""
         if len(name) == 1 or self.header or not name.isalpha() or name in self.bound or name.lower() in _NO_PRODUCTS:
             return False
         if self.words is None:
             self.words, self.alone = (Counter(re.findall(one, self.text)) for one in (WORD, rf"(?<!\w){WORD}"))
+            self.kept = {*_UNDIVIDED.findall(self.text)}
             self.names = Counter() if "*" in self.text else self.words
+            if _MATHEMATICA.search(self.text):
+                self.words, self.names, self.letters = Counter(), Counter(), set()
         factor = self.last == "NUMBER" and self.end == at and not self.alone[name]
-        lone = [letter for letter in self.letters if self.words[letter] == 1]
+        lone = [letter for letter in self.letters if self.words[letter] < 2]
         strange = [letter for letter in name if letter not in self.names]
         called = self.text.startswith("(", at + len(name))
         almost = len(strange) == 1 and not called and not self.letters.isdisjoint(name)
         product = almost or is_product(name, self.words if factor else self.names, lone)
-        is_meant = product and not self.brackets[-1].divided
-        self.products.update((name,) if is_meant else ())
-        return is_meant
-
-    def prefix(self, value: str, at: int) -> Iterator[Token]:
-        """``(E x, y)``, as in front of a formula in brackets."""
-        quantifier = re.compile(r"\(\s*([EA]|[∃∀]|\w+)").match(value)
-        assert quantifier is not None
-        head = quantifier[1]
-        if head[0] in "EA" and len(head) > 1:
-            head = head[0]
-        yield from self.put("QUANTIFIER", head, at)
-        for part in re.compile(rf"({LISTED})|,").finditer(value, value.index(head) + len(head)):
-            name = part[1]
-            shown = "," if name is None else quoted_name(name, at) if name[0] == "`" else name
-            self.note("NAME" if name else "COMMA")
-            yield Token("NAME" if name else "COMMA", shown, at + part.start())
+        product = product and name not in self.kept
+        self.products.update((name,) if product else ())
+        return product
 
     def goes_on(self, at: int) -> bool:
         """Whether another variable of the quantifier comes here, not its body."""

@@ -12,7 +12,7 @@ from qe.io import text_lexer
 from qe.io.conditions import together
 from qe.io.functions import RELATIONS
 from qe.io.parser import BODY, CLOSES, FORMULA, NOT, TERM, Parser, Waiting, counted
-from qe.io.text_errors import SyntaxFailure
+from qe.io.text_errors import SyntaxFailure, unmatched_opening
 from qe.io.tokens import END, Token
 from qe.spelling import WORD
 
@@ -52,7 +52,7 @@ class QuantifiedParser(Parser):
         if self.token.kind == "CLOSE":
             if not is_first:
                 raise self.unexpected(("DOT", "COMMA", "QUANTIFIER"))
-            self.in_front(make)
+            self.in_front(make, token.text in ("E", "A"))
             return None
         kind, text, _ = self.advance()
         conditions = self.condition(headers[-1][0]) if kind == "DOT" and text not in ".:," else []
@@ -67,14 +67,27 @@ class QuantifiedParser(Parser):
             self.open(FORMULA, CLOSES[kind], lambda parts: make(parts[0]))
         return None
 
-    def in_front(self, make: Callable[[s.Node], s.Node]) -> None:
-        """``(∀x ∈ ℝ)``: its formula is what comes next, in brackets, or else all to the end."""
-        self.advance()
+    def in_front(self, make: Callable[[s.Node], s.Node], letter: bool) -> None:
+        """``(∀x ∈ ℝ)``: its formula is what comes next, in brackets, or else all to the end. Behind a ``letter`` all of
+        it is in brackets: ``(A x)(x + 1) > 0`` may be a product."""
+        start = self.advance().at + 1
+
+        def whole(body: s.Node) -> s.Node:
+            written = self.text[start : self.token.at].strip()
+            if (
+                letter
+                and written[0] == "("
+                and unmatched_opening(written[:-1]) != 0
+                and not isinstance(body, s.Quantification)
+            ):
+                raise SyntaxFailure("a quantifier or a product? Write all x. f or ex x. f, or * between factors", start)
+            return make(body)
+
         self.stack.pop()
         level = NOT if self.token.kind in CLOSES else BODY
         if self.token.kind == "DOT":
             self.advance()
-        self.stack.append(Waiting(level, FORMULA, FORMULA, make))
+        self.stack.append(Waiting(level, FORMULA, FORMULA, whole))
 
     def condition(self, quantifier: Token) -> list[s.Node]:
         """What has to hold of the variables of ``for all x, y with x < y: f``, also behind its formula."""

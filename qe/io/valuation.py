@@ -90,10 +90,10 @@ class Valuation(Auxiliaries):
         return value
 
     def sum(self, parts: list[Meaning]) -> Meaning:
-        if all(isinstance(part, Value) for part in parts):
-            return terms.total([part for part in parts if isinstance(part, Value)])
         polynomials = [part for part in parts if isinstance(part, Value)]
         rest = [part for part in parts if not isinstance(part, Value)]
+        if not rest:
+            return terms.total(polynomials)
         result = rest[0] if not polynomials else cases.plain(terms.total(polynomials))
         for part in rest if polynomials else rest[1:]:
             result = cases.combine(self.few(result, part), cases.total)

@@ -170,7 +170,8 @@ def test_what_was_refused_or_answered_by_itself_is_read_as_it_is_meant(typed: st
 @each(
     "exists y > 0, y > 1, x > 2",  # no further variable
     r"\forall a > 0, b > 0, c > 0",
-    "x^2 + b*x + c = 0 has two distinct real roots",
+    "x^2 + b*x + c = 0 has two positive roots",
+    "y^2 + c = 0 has two roots",
     "x >= 0 if a > 0 else x <= 0",
     "x > 1 where x > 0",
     "Simplify[x > 1, x > 0]",
@@ -469,3 +470,73 @@ def test_an_instance_has_the_names_in_the_order_of_the_question(given: str) -> N
     found = qe.find_instance(given)
     assert found is not None and [*found] == [*dict.fromkeys(re.findall(r"\b[abxyz]\b", given))]
     assert all([*point] == [*found] for point in qe.find_instances(given, 2))
+
+
+# --- letters side by side, once more --------------------------------------------------------------------------
+@each(
+    (r"(E ab)[ab > a /\ b < 0]", "ex `ab`. `ab` > a and b < 0"),  # was a*b > a, without a note
+    ("Exists[{ab}, ab > a && b < 0]", "ex `ab`. `ab` > a and b < 0"),  # these were refused: unexpected '*'
+    ("{(ab, a) | ab > a and b < 0}", "`ab` > a and b < 0"),
+    ("Reduce[ab > 0 && a > 0 && b < 0, ab, Reals]", "`ab` > 0 and a > 0 and b < 0"),
+    ("1/ab > 1 and ab < a + b", "1/`ab` > 1 and `ab` < a + b"),  # the second one was a*b
+    ("√ab > a + b", "√`ab` > a + b"),  # was √a*b
+    ("all a. -b^2 + 2alpha >= 1", "all a. -b^2 + 2*`alpha` >= 1"),  # was 2*a*l*p*h*a
+    ("(E x)[ax > 0 and b = 1]", "ex x. a*x > 0 and b = 1"),  # ax was a name here, and a product behind "ex x."
+    (r"\exists \mathrm{let}, \mathrm{bx}\colon \mathrm{let} < \mathrm{bx}", "ex `let`, `bx`. `let` < `bx`"),
+)
+def test_a_word_is_read_in_one_way_in_a_text(typed: str, meant: str) -> None:
+    assert str(text.read(typed)) == str(text.read(meant))
+
+
+@each("(A x)(x + 1) > 0", "(A x)((x + 1)(x + 2)) > (0)")
+def test_what_may_be_a_quantifier_or_a_product_is_refused(typed: str) -> None:
+    with pytest.raises(qe.ParseError, match="a quantifier or a product"):
+        text.read(typed)
+
+
+@each(
+    ("ex x. x = 1 and ab < 0 and a = 1 and b = 1", ["ab is read as the product a*b"]),  # false: nothing was noted
+    ("x^2 + px + q = 0", ["px is one name; a product is written p*x"]),
+    ("b^2 > 4ac", ["ac is one name; a product is written a*c"]),
+    ("`ab` > a + b", []),  # as it is said to be written
+)
+def test_notes_say_what_was_read(typed: str, notes: list[str]) -> None:
+    assert noted_in(typed) == notes
+
+
+def test_names_of_mathematica_are_names_in_its_optima() -> None:
+    """``Minimize[{ab, …}, {ab, a, b}]`` was about the product of a and b."""
+    best = qe.minimize("Minimize[{ab, a >= 1, b >= 1, ab >= -3}, {ab, a, b}]")
+    assert best.value == -3 and best.point["ab"] == -3
+
+
+@each(
+    ("x^3 - 3x + c has three real roots", "exactly three x. x^3 - 3*x + c = 0"),
+    ("for which m does x^2 - 2mx + m = 0 have two solutions?", "exactly two x. x^2 - 2*m*x + m = 0"),
+    ("the equation x^2 = c has at most one solution", "at most one x. x^2 = c"),
+    ("y^2 + c has no real root in y", "not ex y. y^2 + c = 0"),
+    ("find all m such that x^2 + m x + 1 > 0 for all x", "all x. x^2 + m*x + 1 > 0"),
+    ("solve x^2 = 2", "x^2 = 2"),
+    ("prove that x^2 + 1 > y", "x^2 + 1 > y"),
+    ("is it true that all x. x^2 >= 0?", "all x. x^2 >= 0"),
+    ("for which a is x^2 + a > 0 for all x?", "all x. x^2 + a > 0"),
+)
+def test_questions_in_words(typed: str, meant: str) -> None:
+    """They were refused. What is read is noted."""
+    assert text.read(typed) == text.read(meant)
+    assert noted_in(typed)[0].startswith("read as ")
+
+
+@each(
+    "y^2 + c has two roots",
+    "x + y < z has two solutions",
+    "prove in [0, 1] and find x > 1",
+    "for all x is x",
+)
+def test_questions_that_are_not_clear_are_refused(typed: str) -> None:
+    with pytest.raises(qe.ParseError):
+        text.read(typed)
+
+
+def test_solutions_for_what_is_asked() -> None:
+    assert str(qe.solve("for which m does x^2 - 2mx + m = 0 have a solution?")) == "m <= 0 or\nm >= 1"

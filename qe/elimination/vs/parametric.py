@@ -30,6 +30,7 @@ from qe.processes.limits import Limits
 from qe.proof import answer as solution
 from qe.proof.run_log import RunLog
 from qe.simplifier.simplify import simplify
+from qe.spelling import quoted
 
 Number = Fraction | RealAlgebraic
 
@@ -76,7 +77,8 @@ class ParametricWitness:
         return ExactPoint({name: values.get(name, Fraction(0)) for name in self._variables})
 
     def __str__(self) -> str:
-        terms = ", ".join(f"{name} = {term}" for name, term in self.terms.items())
+        names = self.guard.ring.names if self.guard.ring else ()
+        terms = ", ".join(f"{quoted(name, names)} = {term}" for name, term in self.terms.items())
         return f"{terms or 'anything'} if {self.guard}"
 
 

@@ -13,7 +13,7 @@ from qe.formula.syntax import Exists, ForAll
 from qe.formula.text import TEXT, text_notation
 from qe.formula.traverse import subformulas
 from qe.io import formats
-from qe.io.text import read
+from qe.io.text import read, understood
 from tests.strategies import formulas, polynomials
 from tests.tables import each
 
@@ -113,5 +113,6 @@ def test_exactly_the_idle_variables_are_noted(formula) -> None:
 @given(st.sampled_from("abcd"), st.sampled_from("xyz"), st.integers(2, 9))
 def test_the_product_that_may_be_meant(letter: str, variable: str, power: int) -> None:
     note = f"{letter}{variable} is read as the product {letter}*{variable}"
-    assert noted(f"ex {variable}. {letter}{variable}^{power} + 1 = 0") == (note,)
+    assert understood(typed := f"ex {variable}. {letter}{variable}^{power} + 1 = 0") == (typed, (note,))
+    assert noted(typed) == ()
     assert noted(f"ex {variable}. {letter}*{variable}^{power} + 1 = 0") == ()

@@ -58,7 +58,7 @@ from tests.tables import each
     ("(and (> x 0) (< y 1))", 1, "format smtlib", ""),
     ("x := 0", 2, "':=' is not used", ""),
     ("minimize x^2 subject to x > 1", 9, "qe.minimize", ""),
-    ("find x such that x > 1", 5, "find is a command", ""),
+    ("find x > 1 and x < 2", 5, "find is a command", ""),
     ("x between 0 and 1", 2, "x in [0, 1]", ""),
     ("x is positive", 2, "conditions are written with", ""),
     ("(x > 0) > y", 8, "two formulas are compared with <->", ""),
