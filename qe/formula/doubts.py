@@ -33,8 +33,8 @@ def doubts(formula: Formula, text: str = "", format: str = "", solved: Sequence[
         joined |= {**joined_names(free, variables), **_made_of(free)} if typed else {}
     if typed and "*" not in typed:  # x^2 + px + q = 0, b^2 = 4ac
         joined |= joined_names(formula.free, [name for name in formula.free if len(name) == 1])
-        behind_numbers = re.findall(r"(?<![\w.])[0-9]+([^\W\d_]{2,3})\b", typed)
-        joined |= {name: "*".join(name) for name in behind_numbers if name in formula.free and name.isalpha()}
+    behind_numbers = re.findall(r"(?<![\w.])[0-9]+([^\W\d_]{2,3})\b", typed)
+    joined |= {name: "*".join(name) for name in behind_numbers if name in formula.free and name.isalpha()}
     if unused and format in _WRITTEN_OUT:  # what is used as well cancels
         bound = Counter(name for variables, _ in blocks for name in variables)
         written = Counter(_WORD.findall(text))

@@ -61,7 +61,8 @@ def test_a_door_has_one_name_and_one_set_of_keywords(door: Door) -> None:
         if name not in ELSEWHERE:
             assert options[name].default in (setting.default, None)
     if "check" in settings_in(door.settings):
-        assert {"check", "certificate", "json", "plain"} <= set(options) and taken["check"].default is False
+        assert {"check", "json", "plain"} <= set(options) and taken["check"].default is False
+        assert ("certificate" in options) is door.certified is (door.name not in ("find", "optimum"))
     if door.name != "verify":
         assert "assuming" in taken and "assuming" in options
     assert offered.short_help == door.says and door.name in Session().commands

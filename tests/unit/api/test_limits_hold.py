@@ -13,7 +13,7 @@ import sympy
 
 import qe
 import qe.api.eliminate  # else this is a function
-from qe.api.limits import limits_of, posed, reading
+from qe.api.limits import limits_of, posed
 from qe.api.race import raced
 from qe.api.verify import with_derivation
 from qe.errors import BudgetExceeded, InternalError, Unable
@@ -326,7 +326,7 @@ def test_limits() -> None:
 
 def test_reading() -> None:
     limits = Limits(None)
-    assert reading("x > 0", "text", limits) == read("x > 0")
+    assert posed("x > 0", {}, limits).restricted == read("x > 0")
     asked: list[tuple[object, ...]] = []
     settings = {"format": "text", "total_division": True}
     posed(read("x > 0"), settings, limits, reader=lambda *given: asked.append(given) or (given[0], TRUE))  # type: ignore
