@@ -16,7 +16,7 @@ from scipy.interpolate import CubicSpline
 import bezier
 import qe
 from bezier.cli import main
-from bezier.interface.trajectory import limited_motion
+from bezier.interface.trajectory import LIMITED, limited_motion
 from bezier.motion.timelaw import Law
 from bezier.retiming.bound import bound, weights
 from bezier.retiming.grid import Bounds, Grid, stops_of
@@ -90,7 +90,7 @@ def test_the_least_time_lies_between_both_sides(along: Trajectory, limits: dict[
     kept(motion, limits)
     assert len(motion.rests) == ("rests where the parameter of the path stands still" in str(motion))
     if along.breaks[-1] != motion.path.breaks[-1]:
-        listed = limited_motion(limits, len(along.names), "test")
+        listed = limited_motion({**dict.fromkeys(LIMITED), **limits}, len(along.names), "test")
         assert checked(along, listed, motion.certificate).duration == motion.duration
 
 
