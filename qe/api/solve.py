@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any, Unpack, cast
 
 from qe import arguments
 from qe.api.eliminate import decided, region_of
-from qe.api.input import AnyFormula, read_block
+from qe.api.input import AnyFormula, read_block, warned
 from qe.api.limits import limits_of, performed, posed
 from qe.api.settings import ProvedBlock, ProvedQuestion, Question, with_settings
 from qe.decomposition.extended_tarski import true_everywhere
@@ -46,7 +46,8 @@ def solve(formula: AnyFormula, variables: Any = None, **settings: Unpack[ProvedQ
     """All real solutions, case by case, as Mathematica's ``Reduce`` writes them (cylindrical decomposition).
 
     ``variables``: those to solve for, in their order; they come after all others, so that each is expressed in terms of
-    the parameters and of the variables before it. Without them all free variables are meant, in the formula's order.
+    the parameters and of the variables before it. Without them x, y, z (perhaps with an index) are meant, with a note,
+    where there are others; otherwise all free variables, in the formula's order.
     Quantifiers are eliminated first. With ``check`` the decomposition and the text are proved: ``guarantee``.
     Raises ``InputError`` for what cannot be read, ``Unable`` (``BudgetExceeded`` at a limit) where elimination does.
     """
@@ -55,12 +56,22 @@ def solve(formula: AnyFormula, variables: Any = None, **settings: Unpack[ProvedQ
     whole = replace(limits, start=None)
     stated = posed(formula, settings, limits, solved=wanted or (), numbers=True)
     given = stated.restricted
-    if wanted is None and not {*NUMBERS}.isdisjoint(given.free):
-        wanted = tuple(name for name in given.free if name not in NUMBERS)
+    if wanted is None:
+        wanted = _customary(given.free)
     order = None if wanted is None else (*(v for v in given.free if v not in wanted), *wanted)
     solved = len(given.free if wanted is None else wanted)
     work = partial(_solutions, given, stated.known, order, solved, whole, settings["check"])
     return performed(work, given, limits)
+
+
+def _customary(names: tuple[str, ...]) -> tuple[str, ...] | None:
+    """The variables that a formula is solved for when nobody says: x, y and z where there are others; None for all."""
+    variables = tuple(name for name in names if name not in NUMBERS)
+    unknown = tuple(name for name in variables if name[0] in "xyz")
+    if not unknown or len(unknown) == len(variables):
+        return None if variables == names else variables
+    warned([f"solved for {', '.join(unknown)}; variables= or --variables says otherwise"])
+    return unknown
 
 
 def _solutions(

@@ -11,9 +11,7 @@ x. A name is a word, possibly with primes, or anything between backquotes: `` `m
 from __future__ import annotations
 
 import re
-from collections import deque
 from collections.abc import Collection, Container, Sequence
-from contextlib import suppress
 from fractions import Fraction
 from typing import cast
 
@@ -22,11 +20,11 @@ from qe.exact.ring import Poly
 from qe.formula.syntax import Formula, Relation
 from qe.io.lowering import lower, lower_term
 from qe.io.parser import TERM, parsed
+from qe.io.questions import parts, plainly
 from qe.io.surface import FUNCTIONS, Comparison, Every, Meet, Name, Node, Number, Quantification, Term
 from qe.io.text_errors import Failing, SyntaxFailure
-from qe.io.text_lexer import COMMANDS, KEYWORDS, State, tokens
-from qe.io.text_parser import is_latex, parser_of
-from qe.io.text_words import plainly
+from qe.io.text_lexer import COMMANDS, KEYWORDS
+from qe.io.text_parser import is_latex, parser_of, products
 from qe.io.tokens import without_collections
 from qe.io.total import Total
 from qe.spelling import CONSTANTS as CONSTANTS
@@ -77,7 +75,7 @@ def _node(text: str, fail: Failing) -> Node:
 
 def _written_out(text: str) -> str:
     """The text as a formula, without the capitals that it ends with: ``D > 0 where D = b^2 - 4*a*c``."""
-    text = plainly(text)[0]
+    text = plainly(text).formula
     where = _WHERE.fullmatch(text) if "where" in text else None
     if where is None:
         return text
@@ -131,7 +129,7 @@ def outermost(text: str) -> tuple[bool, tuple[str, ...]] | None:
 def solved_for(text: str) -> tuple[str, ...] | None:
     """The variables of a command, x and y of ``Reduce[f, {x, y}, Reals]``, or of a question in words; None without."""
     asked = _ASKED.fullmatch(text)
-    return plainly(text)[1] or None if asked is None else tuple(re.findall(WORD, asked[1]))
+    return plainly(text).names or None if asked is None else tuple(re.findall(WORD, asked[1]))
 
 
 def optimum_asked(text: str) -> tuple[int, str, str, tuple[str, ...]] | None:
@@ -145,10 +143,10 @@ def optimum_asked(text: str) -> tuple[int, str, str, tuple[str, ...]] | None:
         return (word == "min") - (word == "max"), objective, conditions, ()
     if (command := _OPTIMUM.fullmatch(text)) is None:
         return None
-    objective, *constraints = [part for part in _parts(command[2]) if part != "Reals"]
+    objective, *constraints = [part for part in parts(command[2]) if part != "Reals"]
     variables = constraints.pop() if constraints else ""
     if objective.startswith("{"):
-        objective, *constraints = _parts(objective[1:-1])
+        objective, *constraints = parts(objective[1:-1])
     sign = 1 if "Min" in command[1] else -1
     return sign, objective, f"{{{', '.join(constraints)}}}" if constraints else "true", (*re.findall(WORD, variables),)
 
@@ -159,41 +157,22 @@ def with_products(texts: Sequence[str], listed: Collection[str] = ()) -> tuple[l
     texts = [_quoting(text, listed) for text in texts]
     whole = "\n;\n".join(texts)
     words = {*re.findall(WORD, whole)}
-    products: set[str] = set()
+    joined: set[str] = set()
     if "(assert" not in whole and any(len(word) > 1 and word.isalpha() for word in words):
-        products = _products(whole, {name for name in listed if len(name) == 1} - words)
-    made = {word: "*".join(word) for word in products}
+        joined = products(whole, {name for name in listed if len(name) == 1} - words)
+    made = {word: "*".join(word) for word in joined}
     texts = [re.sub(rf"{QUOTED}|{WORD}", lambda word: made.get(word[0], word[0]), text) for text in texts]
-    return texts, _noted(products)
+    return texts, _noted(joined)
 
 
-def _products(text: str, letters: Collection[str] = ()) -> set[str]:
-    """The words that are read as products, ``letters`` being variables that are solved for; none in what is wrong."""
-    state = State(text)
-    state.letters.update(letters)
-    with suppress(SyntaxFailure):
-        deque(() if is_latex(text) else tokens(text, state), maxlen=0)
-        return state.products
-    return set()
-
-
-def _noted(products: Collection[str]) -> list[str]:
-    return [f"{word} is read as the product {'*'.join(word)}" for word in sorted(products)]
+def _noted(joined: Collection[str]) -> list[str]:
+    return [f"{word} is read as the product {'*'.join(word)}" for word in sorted(joined)]
 
 
 def understood(text: str) -> tuple[str, tuple[str, ...]]:
     """A text, or what is read where it asks in words, with notes on this and on what is read as a product."""
-    meant, products = plainly(text)[0], _noted(_products(_written_out(text)))
-    return meant, (*([f"read as {meant}"] if meant != text else ()), *products)
-
-
-def _parts(text: str) -> list[str]:
-    """What stands between the commas outside of brackets."""
-    depth, parts = 0, [""]
-    for character in text:
-        depth += (character in "([{") - (character in ")]}")
-        parts[-1:] = [parts[-1], ""] if character == "," and not depth else [parts[-1] + character]
-    return [part.strip() for part in parts]
+    meant, joined = plainly(text).formula, _noted(products(_written_out(text)))
+    return meant, (*([f"read as {meant}"] if meant != text else ()), *joined)
 
 
 def _no_constants(fail: Failing, known: Container[str]) -> Meet:

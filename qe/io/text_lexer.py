@@ -66,7 +66,7 @@ COMMON ∩
 WITHOUT ∖ \
 BAR |
 """)
-_CALLS = kinds("""
+CALLS = kinds("""
 CONNECTIVE And Or Not Implies Equivalent Xor
 COMPARE Eq Equal Ne Unequal Lt Less Le LessEqual Gt Greater Ge GreaterEqual Inequality
 CHOICE If ITE ite
@@ -94,7 +94,7 @@ _TOKEN = re.compile(
     rf"|(?P<THAT>{THAT})"
     r"|(?P<NOTIN>not\s+in\b|∉)"
     rf"|(?P<QUANTIFIER>[EA](?=\s+{LISTED}\s*(?:,\s*{LISTED}\s*)*(?:[.:]|\)\s*[(\[])|[a-z][0-9]*\s*\)\s*[(\[]))"
-    rf"|(?P<CALL>(?:{'|'.join(_CALLS)})(?=\s*[(\[]))\b"
+    rf"|(?P<CALL>(?:{'|'.join(CALLS)})(?=\s*[(\[]))\b"
     rf"|(?P<NAME>{WORD})"
     r"|(?P<NUMBER>(?:[0-9]+(?:\.[0-9]*)?|\.[0-9]+)(?:[eE][+-]?[0-9]+)?|[¼-¾⅐-⅞↉])"
     rf"|(?P<QUOTED>{QUOTED})"
@@ -187,7 +187,7 @@ def tokens(text: str, state: State | None = None) -> Iterator[Token]:
         elif kind == "RAISED":
             yield from state.raised(value.translate(_RAISED), at)
         elif kind == "CALL":
-            yield from state.put(_CALLS[value], value, at)
+            yield from state.put(CALLS[value], value, at)
         elif kind in ("EVERY", "SOME"):
             yield from state.put("QUANTIFIER", "forall" if kind == "EVERY" else "exists", at)
         elif kind in ("QUANTITY", "UNIQUE"):
@@ -270,10 +270,11 @@ class State:
         self.called, self.listing, self.word, self.closed = False, False, "", False
         self.variables: set[str] | None = None
         behind = BEHIND.search(text)
-        self.bound: set[str] = {*re.findall(LISTED, behind[1])} if behind else set()
+        quantified = {*re.findall(LISTED, behind[1])} if behind else set()
+        self.bound: set[str] = set() if behind is None or behind[2] else {*quantified}
         for match in _BOUND.finditer(text):
             self.bound |= {*re.findall(LISTED, match[1] or match[2])}.difference(WORDS_FOR_PI)
-        self.letters = {name for name in self.bound if len(name) == 1}
+        self.letters = {name for name in self.bound | quantified if len(name) == 1}
         self.words: Counter[str] | None = None
         self.alone = self.names = Counter[str]()
         self.products, self.kept = set[str](), set[str]()

@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Callable, Iterator
+from collections import deque
+from collections.abc import Callable, Collection, Iterator
 from contextlib import suppress
 from functools import reduce
 from itertools import chain
@@ -305,3 +306,13 @@ def _compared(token: Token, sides: list[s.Term]) -> s.Node:
             raise SyntaxFailure("Inequality takes terms and relations: Inequality[0, Less, x, LessEqual, 1]", at)
         return s.Comparison(sides[::2], relations, at)
     return s.Comparison(sides, [RELATIONS[name]] * (len(sides) - 1), at)
+
+
+def products(text: str, letters: Collection[str] = ()) -> set[str]:
+    """The words that are read as products, ``letters`` being variables that are solved for; none in what is wrong."""
+    state = text_lexer.State(text)
+    state.letters.update(letters)
+    with suppress(SyntaxFailure):
+        deque(() if is_latex(text) else text_lexer.tokens(text, state), maxlen=0)
+        return state.products
+    return set()

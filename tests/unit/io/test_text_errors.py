@@ -38,7 +38,7 @@ from tests.tables import each
     ("x = 1,000", 5, "a decimal number is written with a point", ""),
     ("x = 1_000", 4, "without _ between its digits", ""),
     ("exists exactly x. x^2 = a", 7, "write exactly 1 x. f", ""),
-    ("solveset(x**2 <= a, x)", 14, "solveset is a command", ""),
+    ("print(x**2 <= a, x)", 11, "print is a command", ""),
     ("MinValue[{x, x > 0}, x]", 9, "qe.minimize", ""),
     ("x < Root[#^3 - 2 &, 1]", 4, "is written root(1, x^3 - 2)", ""),
     ("Simplify[x > 1, x > 0]", 16, "assuming=", ""),

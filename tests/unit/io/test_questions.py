@@ -1,0 +1,87 @@
+"""Questions in words and commands of other systems: what they are read as, and what is left alone."""
+
+from __future__ import annotations
+
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+import qe
+from qe.io import text
+from qe.io.questions import plainly
+
+
+@pytest.mark.parametrize(
+    ("typed", "meant"),
+    (
+        ("If $a,b,c>0$ and $abc=1$, prove that $a^2\\ge a$", "all a, b, c. a, b, c > 0 and a*b*c = 1 -> a^2 >= a"),
+        ("Let a, b and c be positive reals with a = b. Prove a*b <= c", "all a, b, c > 0: a = b -> a*b <= c"),
+        ("Let $x,y$ be real numbers. Show that $\\frac{x^{2}+y^2}{2} \\geq xy$.", "all x, y. (x^2 + y^2)/2 >= x*y"),
+        ("For nonnegative reals x, y, prove $\\sqrt{xy} \\le \\frac{x+y}{2}$", "all x, y >= 0: (x*y)^.5 <= (x+y)/2"),
+        ("prove that (x+y)^2 >= 4xy", "all x, y. (x + y)^2 >= 4*x*y"),
+        ("Is it true that if ab > 0 then a + b > 0?", "all a, b. a*b > 0 -> a + b > 0"),
+        ("prove(Implies(And(x > 0, y > 0), x + y > 0))", "all x, y. x > 0 and y > 0 -> x + y > 0"),
+        ("solve([x + y > 1, y > 0], x)", "x + y > 1 and y > 0"),
+        ("solve(x**2 - a, x)", "x^2 = a"),
+        ("sympy.solveset(x**2 <= a, x, domain=S.Reals)", "x^2 <= a"),
+        ("reduce_inequalities([x >= 2, x >= 7], [])", "x >= 2 and x >= 7"),
+        ("is x^2 + x + a positive for all real x?", "all x. x^2 + x + a > 0"),
+        ("is x^2 + y^2 + 1 always positive?", "all x, y. x^2 + y^2 + 1 > 0"),
+        ("x^2 + 2ax + 1 >= 0 for all x in [0, 2]", "all x. x in [0, 2] -> x^2 + 2*a*x + 1 >= 0"),
+        ("x^2 + kx + 1 = 0 has real and distinct roots", "at least two x. x^2 + k*x + 1 = 0"),
+        ("For which values of $k$ does $x^2 + kx + 1 = 0$ have real roots?", "ex x. x^2 + k*x + 1 = 0"),
+        ("x^2 + a x + b has two positive roots", "exactly two x. x^2 + a*x + b = 0 and x > 0"),
+        ("find $m \\in \\mathbb{R}$ so that x^2 = m has both roots greater than -2", "0 <= m < 4"),
+        ("x^2 - m has one root less than 1 and the other larger than 1", "m > 1"),
+        ("x^2 - m = 0 has only one root between 1 and 2", "1 < m < 4"),
+        ("for what a does the system x^2+y^2=1, x+y=a have a real solution?", "ex x, y. x^2 + y^2 = 1 and x + y = a"),
+        ("the system x^2 = a has no solution", "the system x^2 = a has no solution"),
+    ),
+)  # fmt: skip
+def test_what_is_read(typed: str, meant: str) -> None:
+    if typed == meant:
+        with pytest.raises(qe.ParseError):
+            text.read(typed)
+        return
+    assert qe.equivalent(text.read(typed), text.read(meant))
+
+
+@pytest.mark.parametrize(
+    ("typed", "names"),
+    (
+        ("solve({x^2+y^2=5, x*y=2}, [x,y])", ("x", "y")),
+        ("solve(t*(t + 2*y) + x > 1000, t)", ("t",)),
+        ("Solve for x and y: x + y = a, x - y = b", ("x", "y")),
+        ("find all m and n such that x^2 + m x + n > 0 for all x", ("m", "n")),
+        ("Find all real numbers x, y satisfying x^2 + y^2 = 2, x + y = 2", ("x", "y")),
+        ("x + y = 1", ()),
+    ),
+)
+def test_the_variables_that_are_sought(typed: str, names: tuple[str, ...]) -> None:
+    assert plainly(typed).names == names
+
+
+@pytest.mark.parametrize(
+    "typed", ("x is positive", "let x = 2", "x has y", "solve", "$x", "if a > 0 then b > 0", "prove")
+)
+def test_what_is_no_question_stays_as_it_is(typed: str) -> None:
+    assert plainly(typed).formula == typed
+
+
+ENDS = st.integers(-4, 4)
+
+
+@given(ENDS, ENDS, ENDS, ENDS, st.sampled_from(("no", "exactly one", "two", "only one", "a")))
+def test_roots_in_an_interval_are_counted(p: int, q: int, low: int, high: int, many: str) -> None:
+    typed = f"(x - ({p}))*(x - ({q})) has {many} roots in [{low}, {high}]"
+    count = len({root for root in (p, q) if low <= root <= high})
+    wanted = {"no": count == 0, "two": count == 2, "a": count > 0}.get(many, count == 1)
+    assert bool(qe.decide(typed)) == wanted
+
+
+@given(ENDS, ENDS, ENDS)
+def test_both_roots_and_one_on_either_side(p: int, q: int, bound: int) -> None:
+    quadratic = f"x^2 - ({p + q})*x + ({p * q}) = 0"
+    assert bool(qe.decide(f"{quadratic} has both roots greater than {bound}")) == (min(p, q) > bound)
+    sides = f"{quadratic} has one root smaller than {bound} and the other greater than {bound}"
+    assert bool(qe.decide(sides)) == (min(p, q) < bound < max(p, q))
