@@ -30,6 +30,7 @@ from qe.proof.certificate import Certificate
 from qe.proof.run_log import RunLog
 from qe.proving import certificates
 from qe.regions.by_value import cases_by_value
+from qe.regions.linear_systems import regular_case
 from qe.regions.solutions import Solutions
 from qe.regions.walk import MOST_POINTS, different_points
 from qe.spelling import NUMBERS
@@ -86,12 +87,28 @@ def _solutions(
     region = region_of(given, order, replace(whole, process=False), check, budget)
     cases = tuple(region.cells)
     lines = [str(case) for case in cases]
-    by_value = cases_by_value(region.table, len(region.order) - solved, budget, known)
-    if by_value is not None and sum(map(len, by_value)) <= sum(map(len, lines)):
-        lines = by_value
+    for listed in (
+        cases_by_value(region.table, len(region.order) - solved, budget, known),
+        _by_determinant(given, known, region.order, solved, whole, budget),
+    ):
+        if listed is not None and sum(map(len, listed)) <= sum(map(len, lines)):
+            lines = listed
     region.limits = whole
     solutions = Solutions(region.order, cases, region, tuple(readable(line, region.order) for line in lines))
     return replace(solutions, answer=_compared(solutions, given, known, budget)) if check else solutions
+
+
+def _by_determinant(
+    given: Formula, known: Formula, order: tuple[str, ...], solved: int, whole: Limits, budget: Budget
+) -> list[str] | None:
+    """The cases of a square linear system, those where its determinant is zero by value; None for another formula."""
+    regular = regular_case(given, order[len(order) - solved :])
+    if regular is None:
+        return None
+    line, singular = regular
+    region = region_of(singular, tuple(order), replace(whole, process=False), False, budget)
+    cases = cases_by_value(region.table, len(order) - solved, budget, known)
+    return None if cases is None else [line, *(case for case in cases if case != "false")]
 
 
 def _compared(solutions: Solutions, given: Formula, known: Formula, budget: Budget) -> Answer:

@@ -14,11 +14,15 @@ from qe.decomposition.formulas import Undistinguished, formula_of_cells
 from qe.decomposition.pieces import merge
 from qe.decomposition.sampled_cells import Place, leaves
 from qe.decomposition.sign_table import Columns, placed_signs
+from qe.elimination.protocol import Context
+from qe.engine.redundant import without_redundant_parts
+from qe.engine.run import outcome_for
 from qe.exact.ring import Poly
-from qe.formula.syntax import TRUE, Formula, Or
+from qe.formula.syntax import TRUE, And, Formula, Or
 from qe.formula.traverse import polynomials
-from qe.options import Budget
+from qe.options import Budget, Options
 from qe.proof.cells import CHARACTER_OF, Cell, CellTable, FreeCell
+from qe.proof.run_log import RunLog
 from qe.simplifier.simplify import simplify
 
 Factors = Sequence[Sequence[Poly]]
@@ -58,7 +62,7 @@ def condition(
     for factors, signs in columns():
         cells = [FreeCell(base.path, tuple(signs(base)), true) for base, true in places]
         try:
-            formula = simplify(formula_of_cells(factors, cells))
+            formula = _shortened(simplify(formula_of_cells(factors, cells)), budget)
         except Undistinguished:
             continue
         if formula == TRUE:
@@ -77,6 +81,13 @@ def condition(
         if len(shown[0]) < len(said[0]) * (3 if has_values else 1):
             return shown
     return said
+
+
+def _shortened(formula: Formula, budget: Budget) -> Formula:
+    """The formula without parts that make no difference, which signs of factors alone do not tell."""
+    if not isinstance(formula, And) or not any(isinstance(part, Or) for part in formula.args):
+        return formula
+    return without_redundant_parts(formula, Context(Options(), budget, RunLog(), outcome_for))
 
 
 def _over_cells(
