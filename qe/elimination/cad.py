@@ -29,6 +29,7 @@ from qe.proof.cells import CellTable
 from qe.proof.certificate import Certificate
 from qe.proof.on_demand import OnDemand, Repeated
 from qe.proof.run_log import RunLog
+from qe.simplifier.presented import presented
 from qe.simplifier.simplify import simplify
 
 WHOLE_FROM, WHOLE_CELLS = 300, 2000
@@ -64,6 +65,7 @@ def decomposed(formula: Formula, options: Options, budget: Budget, log: RunLog) 
     values: Values | None = None
     if formula.free:
         answer, proof, levels, whole = question.shortest(first, budget)
+        answer = answer if options.root_atoms else presented(answer)
         if levels and options.certify:  # what was refined is no proof
             proof = question.table(budget, levels, whole_free=whole).table
     else:

@@ -25,13 +25,14 @@ from qe.formula.counting import without_root_atoms
 from qe.formula.evaluate import holds_at
 from qe.formula.normal import nnf, rename_apart, without_clashes
 from qe.formula.syntax import FALSE, TRUE, And, Constant, Formula, Not, Or
-from qe.formula.traverse import bound_variables, subformulas
+from qe.formula.traverse import bound_variables, has_root_atoms, subformulas
 from qe.options import Budget, Options
 from qe.proof.answer import Answer, Status
 from qe.proof.run_log import RunLog
 from qe.proving.certificates import certificate_of
 from qe.rules.preparation import Prepared, prepare
 from qe.rules.step import steps_without
+from qe.simplifier.presented import presented
 from qe.simplifier.simplify import simplify
 
 MOST_TRIED = 200
@@ -53,6 +54,9 @@ def answered(formula: Formula, options: Options, budget: Budget) -> Outcome:
     clear = run.log.step("renaming", formula, without_clashes(formula))
     plain = run.log.step("roots counted", clear, _counted(clear, options))
     outcome = run.outcome(run.log.step("renaming", plain, rename_apart(plain)))
+    if outcome.make is None and outcome.certificate is None and not has_root_atoms(outcome.formula):
+        shown = run.log.step("simplification", outcome.formula, presented(outcome.formula))
+        outcome = replace(outcome, formula=shown)
     answer = convert(outcome.formula, Ring.of(free)) if free else outcome.formula
     run.log.seconds = round(time.perf_counter() - started, 6)
     return replace(outcome, formula=answer, log=run.log)

@@ -39,7 +39,11 @@ _OPTIMUM = re.compile(r"\s*(N?M(?:in|ax)(?:imize|Value)|ArgM(?:in|ax))\[(.*)\]\s
 _GOAL = re.compile(
     r"(?i)\s*(?:find\s+)?(?:the\s+)?(min|max)(?:imum|imi[sz]e|imal|(?=:?\s+[-\w|]))(?:\s+value)?(?:\s+of)?:?\s+"
 )
-_SUBJECT = re.compile(r"(?is)(.+?),?\s+(?:subject\s+to|s\.\s?t\.|such\s+that|given|where|when|for|with):?\s+(.+)")
+_SUBJECT = re.compile(
+    r"(?is)(.+?),?\s+(?:subject\s+to|s\.\s?t\.|such\s+that|given|where|when|for|with|over|on|if):?\s+(.+)"
+)
+_INTERVAL = re.compile(r"\s*[\[(][^()\[\]<>=≤≥]*,[^()\[\]<>=≤≥]*[\])]\s*")
+_RELATED = re.compile(r"[<>=≤≥≠∈]")
 
 
 def read(text: str, *, source: str = "<text>", known: Container[str] = (), total_division: bool = False) -> Formula:
@@ -137,9 +141,13 @@ def optimum_asked(text: str) -> tuple[int, str, str, tuple[str, ...]] | None:
     ``minimize f subject to c`` (0 without its first word) all are variables, and none are told."""
     goal = _GOAL.match(text)
     said = _SUBJECT.fullmatch(text, goal.end() if goal else 0)
-    if goal or said:
-        word, objective = goal[1].lower() if goal else "", text[goal.end() :] if goal else text
-        objective, conditions = (said[1], said[2]) if said else (objective, "true")
+    asked = text[goal.end() :] if goal else text
+    objective, conditions = (said[1], said[2]) if said else _at_comma(asked)
+    if goal or objective != asked:
+        names = {*re.findall(WORD, objective)}.difference(FUNCTIONS)
+        if _INTERVAL.fullmatch(conditions) and len(names) == 1:
+            conditions = f"{names.pop()} in {conditions}"
+        word = goal[1].lower() if goal else ""
         return (word == "min") - (word == "max"), objective, conditions, ()
     if (command := _OPTIMUM.fullmatch(text)) is None:
         return None
@@ -149,6 +157,13 @@ def optimum_asked(text: str) -> tuple[int, str, str, tuple[str, ...]] | None:
         objective, *constraints = parts(objective[1:-1])
     sign = 1 if "Min" in command[1] else -1
     return sign, objective, f"{{{', '.join(constraints)}}}" if constraints else "true", (*re.findall(WORD, variables),)
+
+
+def _at_comma(text: str) -> tuple[str, str]:
+    """An objective and the conditions that follow it: ``x + 1/x, x > 0``."""
+    first, *rest = parts(text)
+    is_pair = rest and _RELATED.search(", ".join(rest)) and not _RELATED.search(first)
+    return (first, ", ".join(rest)) if is_pair else (text, "true")
 
 
 def with_products(texts: Sequence[str], listed: Collection[str] = ()) -> tuple[list[str], list[str]]:

@@ -181,6 +181,8 @@ def _command_hint(command: str) -> str:
     """What to write in place of a command of another system."""
     if command == "let":
         return "definitions are not read; put the term in the place of its name, or write ex y. y = … and …"
+    if command.startswith("Assum"):
+        return f"{command} is no part of a formula; what it assumes is given with assuming= or --assuming"
     if re.match("n?m(in|ax)|argm|findm", command.lower()):
         return f"{command} is no part of a formula; an optimum is asked for with qe.minimize or qe minimize"
     return f"{command} is a command, not a part of a formula; give the formula alone"
