@@ -67,7 +67,7 @@ def test_other_blocks_are_not(text: str) -> None:
     assert quadratic_and_few_parameters(problem(text), Options()) is None
 
 
-@each("ex x. x^2 + a*x + 1 = 0", "ex x. x^2 + a*x + b < 0 and x > 0 and b > 1")
+@each("ex x. x^2 + a*x + 2 = 0", "ex x. x^2 + a*x + b < 0 and x > 0 and b > 1")
 def test_an_answer_of_one_atom_needs_no_decomposition(text: str) -> None:
     answer = qe.eliminate(text)
     methods = [entry.method for entry in answer.log.entries if isinstance(entry, Choice)]

@@ -38,7 +38,7 @@ UNIT = f"ex x. 0 <= x and x <= 1 and {FORM}"
     (DISCS, "(r + s)^2 - a^2 - b^2 >= 0 or (r - s)^2 - a^2 - b^2 >= 0"),
     ("ex x, y. x^2 + y^2 <= 0 and x^2 + y^2 < a", "a > 0"),
     ("ex x, y, z. x^2 + y^2 + z^2 < 1 and (x-a)^2 + y^2 + z^2 <= 1", "-2 < a < 2"),
-    ("all x, y. x^2 + y^2 > 1 or (x-a)^2 + y^2 >= 4", "a^2 >= 9"),
+    ("all x, y. x^2 + y^2 > 1 or (x-a)^2 + y^2 >= 4", "a <= -3 or a >= 3"),
     ("all x, y. (x-a)^2 + (y-b)^2 <= 4 -> x^2 + y^2 <= 9", "a^2 + b^2 <= 1"),
     (f"r > 0 and s > 0 and ({DISCS.replace('<', '')})", f"r > 0 and s > 0 and {NEAR} >= 0 and {FAR} <= 0"),
     (f"r > 0 and s > 0 and not ({DISCS.replace('<=', '>', 1)})", f"s > 0 and {FAR} >= 0 and r >= s"),
