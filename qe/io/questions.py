@@ -39,6 +39,15 @@ _SORTED = re.compile(
     rf"|({_SIGN})\s+(?:reals?\s+)?(?:numbers?\s+)?({_LIST})|reals?\s+(?:numbers?\s+)?({_LIST})"
 )
 """Variables with what they are: ``a, b be positive real numbers``, ``positive reals a, b``."""
+_TRIANGLE = re.compile(
+    rf"({LISTED})\s*,\s*({LISTED})\s*(?:,\s*and|,|and)\s*({LISTED})\s+(?:be|are)\s+(?:the\s+)?(?:lengths\s+of\s+)?(?:the\s+)?"
+    r"(?:side\s*lengths|sides|lengths\s+of\s+the\s+sides)\s+of\s+(?:a|some)\s+triangle"
+)
+_LEAN = re.compile(
+    r"(?:theorem\s+\S+|lemma\s+\S+|example)\s*((?:[({][^(){}:]*:(?:[^(){}]|\([^()]*\))*[)}]\s*)*):(?!=)\s*(.+?)\s*(?::=.*)?",
+    re.DOTALL,
+)
+_BINDER = re.compile(r"[({]([^(){}:]*):\s*((?:[^(){}]|\([^()]*\))*)[)}]")
 _AND = re.compile(r"\s*,?\s*\b(?:(?:and\s+)?(?:with|such\s+that|satisfying|satisfy)|,\s*and)\b\s*")
 
 _KINDS = rf"((?:(?:distinct|different|real|{_SIGN}|and)\s+)*)"
@@ -84,6 +93,8 @@ def plainly(text: str) -> Question:
     short = _typed(text.strip()) if len(text) < LONGEST else ""
     if not short:
         return Question(text)
+    if (lean := _LEAN.fullmatch(short)) and (stated := _stated(lean[1], lean[2])):
+        return Question(stated)
     if call := _CALL.fullmatch(short):
         return _called(call[1], call[2])
     short = short.rstrip(" ?.")
@@ -128,7 +139,25 @@ def _premise(text: str) -> str:
         names = ", ".join(re.findall(rf"\b(?!and\b){LISTED}", listed))
         return f"{names} {SIGNED[sign]} 0 " if sign else ""
 
+    text = _TRIANGLE.sub(r"\1, \2, \3 > 0 and \1 + \2 > \3 and \2 + \3 > \1 and \3 + \1 > \2", text)
     return re.sub(r"^\s*and\b|\band\s*$", "", _AND.sub(" and ", _SORTED.sub(sorted_names, text))).strip(" ,")
+
+
+def _stated(binders: str, claim: str) -> str | None:
+    """A theorem as Lean states it, ``(x y : ℝ) (h : x + y = 1) : x * y ≤ 1 / 4``; None for one about other types."""
+    listed = [(binder[1].split(), binder[2].strip()) for binder in _BINDER.finditer(binders)]
+    names = [name for words, kind in listed if kind in ("ℝ", "Real") for name in words]
+    if any(re.fullmatch(WORD, kind) for _, kind in listed if kind not in ("ℝ", "Real")):
+        return None
+    premises = [f"({kind})" for _, kind in listed if kind not in ("ℝ", "Real")]
+    whole = " -> ".join((*premises, f"({claim})"))
+    for pattern, put in (
+        (r"Real\.sqrt\s*\(", "sqrt("),
+        (r"Real\.sqrt\s+(\w+)", r"sqrt(\1)"),
+        (r"\((\S+)\s*:\s*ℝ\)", r"\1"),
+    ):
+        whole = re.sub(pattern, put, whole)
+    return f"all {', '.join(names)}. {whole}" if names else whole
 
 
 def _names(text: str) -> tuple[str, ...]:

@@ -37,7 +37,8 @@ _WHERE = re.compile(r"(.*?)[,;]?\s+where\s+((?:[A-Z]\s*=[^=<>≤≥≠]+,\s*)*[A
 _DEFINED = re.compile(r"([A-Z])\s*=\s*([^=]+?)\s*(?:,(?=\s*[A-Z]\s*=)|$)")
 _OPTIMUM = re.compile(r"\s*(N?M(?:in|ax)(?:imize|Value)|ArgM(?:in|ax))\[(.*)\]\s*", re.DOTALL)
 _GOAL = re.compile(
-    r"(?i)\s*(?:find\s+)?(?:the\s+)?(min|max)(?:imum|imi[sz]e|imal|(?=:?\s+[-\w|]))(?:\s+value)?(?:\s+of)?:?\s+"
+    r"(?i)\s*(?:(?:find|what\s+is|determine)\s+)?(?:the\s+)?(?:(min|max)(?:imum|imi[sz]e|imal|(?=:?\s+[-\w|]))"
+    r"(?:\s+(?:possible\s+)?value)?(?:\s+of)?|(least|smallest|lowest|greatest|largest|highest)\s+(?:possible\s+)?value\s+of):?\s+"
 )
 _SUBJECT = re.compile(
     r"(?is)(.+?),?\s+(?:subject\s+to|s\.\s?t\.|such\s+that|given|where|when|for|with|over|on|if):?\s+(.+)"
@@ -139,6 +140,7 @@ def solved_for(text: str) -> tuple[str, ...] | None:
 def optimum_asked(text: str) -> tuple[int, str, str, tuple[str, ...]] | None:
     """1 or -1, the objective, the constraints and the variables of ``Minimize[{f, c}, {x, y}]`` or ``Maximize``; for
     ``minimize f subject to c`` (0 without its first word) all are variables, and none are told."""
+    text = text.rstrip(" ?.")
     goal = _GOAL.match(text)
     said = _SUBJECT.fullmatch(text, goal.end() if goal else 0)
     asked = text[goal.end() :] if goal else text
@@ -147,8 +149,9 @@ def optimum_asked(text: str) -> tuple[int, str, str, tuple[str, ...]] | None:
         names = {*re.findall(WORD, objective)}.difference(FUNCTIONS)
         if _INTERVAL.fullmatch(conditions) and len(names) == 1:
             conditions = f"{names.pop()} in {conditions}"
-        word = goal[1].lower() if goal else ""
-        return (word == "min") - (word == "max"), objective, conditions, ()
+        word = (goal[1] or goal[2]).lower() if goal else ""
+        sign = (word in ("min", "least", "smallest", "lowest")) - (word in ("max", "greatest", "largest", "highest"))
+        return sign, objective, conditions, ()
     if (command := _OPTIMUM.fullmatch(text)) is None:
         return None
     objective, *constraints = [part for part in parts(command[2]) if part != "Reals"]

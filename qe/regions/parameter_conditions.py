@@ -23,6 +23,7 @@ from qe.formula.traverse import polynomials
 from qe.options import Budget, Options
 from qe.proof.cells import CHARACTER_OF, Cell, CellTable, FreeCell
 from qe.proof.run_log import RunLog
+from qe.simplifier.presented import presented
 from qe.simplifier.simplify import simplify
 
 Factors = Sequence[Sequence[Poly]]
@@ -84,10 +85,10 @@ def condition(
 
 
 def _shortened(formula: Formula, budget: Budget) -> Formula:
-    """The formula without parts that make no difference, which signs of factors alone do not tell."""
-    if not isinstance(formula, And) or not any(isinstance(part, Or) for part in formula.args):
-        return formula
-    return without_redundant_parts(formula, Context(Options(), budget, RunLog(), outcome_for))
+    """The formula as people write it, without parts that make no difference, which signs of factors do not tell."""
+    if isinstance(formula, And) and any(isinstance(part, Or) for part in formula.args):
+        formula = without_redundant_parts(formula, Context(Options(), budget, RunLog(), outcome_for))
+    return presented(formula)
 
 
 def _over_cells(

@@ -35,6 +35,10 @@ from qe.io.questions import plainly
         ("x^2 - m has one root less than 1 and the other larger than 1", "m > 1"),
         ("x^2 - m = 0 has only one root between 1 and 2", "1 < m < 4"),
         ("for what a does the system x^2+y^2=1, x+y=a have a real solution?", "ex x, y. x^2 + y^2 = 1 and x + y = a"),
+        ("theorem t (x y : ℝ) (h : 0 ≤ x ∧ x + y = 1) : x*y ≤ 1 := by sorry", "all x >= 0, y. x + y = 1 -> x*y <= 1"),
+        ("example {a : ℝ} (h : 0 ≤ a) : Real.sqrt (4 * a) = (2:ℝ) * Real.sqrt a", "all a >= 0. sqrt(4*a) = 2*sqrt(a)"),
+        ("Let a, b, c be the sides of a triangle. Prove a + b > c.", "true"),
+        ("theorem t (n : ℕ) : n ≥ 0", "theorem t (n : ℕ) : n ≥ 0"),
         ("the system x^2 = a has no solution", "the system x^2 = a has no solution"),
     ),
 )  # fmt: skip
@@ -85,3 +89,37 @@ def test_both_roots_and_one_on_either_side(p: int, q: int, bound: int) -> None:
     assert bool(qe.decide(f"{quadratic} has both roots greater than {bound}")) == (min(p, q) > bound)
     sides = f"{quadratic} has one root smaller than {bound} and the other greater than {bound}"
     assert bool(qe.decide(sides)) == (min(p, q) < bound < max(p, q))
+
+
+@pytest.mark.parametrize(
+    "typed",
+    (
+        "x + 1/x, x > 0",
+        "x + 1/x over x > 0",
+        "the minimum of x + 1/x on (0, 5]",
+        "What is the least value of x + 1/x when x > 0?",
+        "Find the smallest possible value of x + 1/x if x > 0.",
+    ),
+)
+def test_optima(typed: str) -> None:
+    assert qe.minimize(typed).value == 2
+
+
+def test_without_variables_the_usual_unknowns_are_meant() -> None:
+    with pytest.warns(qe.DoubtfulInput, match="solved for x; variables="):
+        assert str(qe.solve("x^2 = a")) == "a >= 0 and (x = -sqrt(a) or x = sqrt(a))"
+    assert qe.solve("a = b").order == ("a", "b") and qe.solve("y = x^2").order == ("y", "x")
+
+
+@pytest.mark.parametrize(
+    ("system", "cases"),
+    (
+        ("a*x + b*y = e, c*x + d*y = f", 6),
+        ("a*x + b*y = 1 and b*x + a*y = 2", 1),
+        ("x + a*y = 1, x + a*y = 2", 1),
+        ("a*x + y = 1, x + a*y = b, b > 0", 2),
+    ),
+)
+def test_linear_systems_by_their_determinant(system: str, cases: int) -> None:
+    solutions = qe.solve(system, ["x", "y"], check=True)
+    assert len(str(solutions).split(" or\n")) == cases and solutions.guarantee is qe.Guarantee.CHECKED

@@ -165,7 +165,7 @@ def test_in_the_median_they_are_no_longer() -> None:
 
 def test_values_that_a_case_fixes_are_substituted() -> None:
     lines = qe.solve("x^2 + y^2 = a and x*y = b", "x, y").lines
-    assert "b = 0 and a >= 0 and x = 0 and (y = -sqrt(a) or y = sqrt(a))" in lines and len(lines) <= 5
+    assert "a >= 0 and b = 0 and x = 0 and (y = -sqrt(a) or y = sqrt(a))" in lines and len(lines) <= 5
 
 
 def test_where_no_signs_tell_a_condition_is_said_over_cells() -> None:
