@@ -122,7 +122,7 @@ class NormalPosition:
             moved, detail = moved_by(block, inside), ", ".join(map(written, inside))
             evidence = {"detail": detail, "proof": {"values": [(s.variable, coefficients(s)) for s in inside]}}
             log.step(StepKind.POSITION.value, block, moved, evidence=evidence)
-            current = moved_by(current, inside)
+            current = moved if current is block else moved_by(current, inside)
 
         def back(rest: Outcome) -> Outcome:
             values = None if rest.witness is None else dict(rest.witness)

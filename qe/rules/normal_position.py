@@ -94,6 +94,7 @@ class _Position:
     watch: Callable[[], object]
     steps: list[Solve] = field(default_factory=list)
     written: dict[Poly, Terms] = field(default_factory=dict)
+    images: dict[tuple[Poly, Solve], Poly] = field(default_factory=dict)
 
     @property
     def ring(self) -> Ring:
@@ -131,7 +132,13 @@ class _Position:
 
     def take(self, steps: Sequence[Solve]) -> None:
         self.steps += steps
-        self.polys = [reduce(_image, steps, p) for p in self.polys]
+        self.polys = [reduce(self.image, steps, p) for p in self.polys]
+
+    def image(self, poly: Poly, step: Solve) -> Poly:
+        """``_image``, which the next round asks for again."""
+        if not poly.degree(self.ring.index[step.variable]):
+            return poly
+        return self.images.get((poly, step)) or self.images.setdefault((poly, step), _image(poly, step))
 
     def centre(self) -> None:
         """A new origin for all variables at once, as all polynomials propose together, or one of them; or the same
@@ -141,11 +148,12 @@ class _Position:
         alike: Counter[Fraction] = Counter()
         for chosen in (curved, *([poly] for poly in curved), linear):
             terms, among = [self.terms(p) for p in chosen], {x for p in chosen for x in p.variables}
-            numbers = [(x, c) for x in self.variables if x in among for c in _numbers(terms, x, None)[:1]]
-            proposed.append([self.step(x, None, c) for x, c in numbers])
-            alike.update(c for _, c in numbers)
-        proposed += [[self.step(x, None, c) for x in self.variables] for c, _ in alike.most_common(_TRIED)]
-        self.take_best([steps for steps in proposed if len(steps) > 1], range(len(self.polys)))
+            numbers = {x: found for x in self.variables if x in among if (found := _numbers(terms, x, None))}
+            proposed.append([self.step(x, None, c) for x, (c, *_) in numbers.items()])
+            alike.update(c for found in numbers.values() for c in found)
+        same = [[self.step(x, None, c) for x in self.variables] for c, _ in alike.most_common(_TRIED)]
+        for several in (same, proposed):  # variables that may be exchanged stay so, unless that is much longer
+            self.take_best([steps for steps in several if len(steps) > 1], range(len(self.polys)))
 
     def shift(self, x: int, y: int | None, places: Sequence[int]) -> None:
         """x = x' - c*y, or x' - c, for the best number c, by the polynomials at ``places``, in which x is."""
@@ -169,8 +177,12 @@ class _Position:
         for steps in proposed:
             self.watch()
             moved = {self.ring.index[step.variable] for step in steps}
-            length = sum(size if moved.isdisjoint(own) else _length(reduce(_image, steps, p)) for p, size, own in polys)
-            if length < most:
+            length = 0.0
+            for p, size, own in polys:
+                length += size if moved.isdisjoint(own) else _length(reduce(self.image, steps, p))
+                if length >= most:
+                    break
+            else:
                 best, most = steps, length
         self.take(best)
 
@@ -187,13 +199,14 @@ class _Position:
 
     def scale(self, names: tuple[int, ...]) -> None:
         """The same power of a prime for these variables, each prime after the other."""
-        parts = self.parts(names)
+        parts, by = self.parts(names), Fraction(1)
         for prime in sorted({p for degrees in parts for content, _ in degrees.values() for p in _primes(content)}):
-            t = _exponent([[(k, _order(c, prime), n) for k, (c, n) in degrees.items()] for degrees in parts])
-            if t:
-                top, bottom = (self.ring.constant(prime ** max(sign * t, 0)) for sign in (1, -1))
-                self.take([Solve(self.ring.names[x], self.ring.gen(x) * top, bottom) for x in names])
-                parts = self.parts(names)
+            by *= Fraction(prime) ** _exponent(
+                [[(k, _order(c, prime), n) for k, (c, n) in degrees.items()] for degrees in parts]
+            )
+        if by != 1:
+            top, bottom = by.numerator, self.ring.constant(by.denominator)
+            self.take([Solve(self.ring.names[x], self.ring.gen(x) * top, bottom) for x in names])
 
     def parts(self, names: tuple[int, ...]) -> list[dict[int, tuple[int, int]]]:
         """For every polynomial, by the degree in these variables: the content, and how many terms there are."""

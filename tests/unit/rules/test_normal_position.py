@@ -127,6 +127,14 @@ def test_affine_changes_of_the_corpus(seed: int) -> None:
         assert StepKind.POSITION.value not in answer.unchecked_steps, (problem.id, seed)
 
 
+def test_an_origin_that_all_comparisons_share_is_found_first() -> None:
+    """kyoto1999-Ri-3-m#1 in x -> 7/3*x - 1: nine times as slow, as one difference was made an axis before that."""
+    order = "0 < {a} and {a} < {b} and 0 < {c} and {c} < {d} -> {b}^2*{d}^2 + {a}^2*{c}^2 > {a}^2*{d}^2 + {b}^2*{c}^2"
+    given = "all a, b, c, d. " + order.format(**{v: v for v in "abcd"})
+    moved = "all a, b, c, d. " + order.format(**{v: f"(7/3*{v} - 1)" for v in "abcd"})
+    assert position(moved)[1] == position(given)[1]
+
+
 @pytest.mark.skipif(not LITERATURE.is_dir(), reason="the corpora are not beside the project")
 @each("redlog/x10y2|affine", "redlog/x10y2|sheared", "qe_problems/dorato97#1|affine", "qepcad_app/#5|affine")
 def test_no_problem_is_lost_in_other_coordinates(name: str) -> None:
