@@ -64,7 +64,7 @@ class Search:
         Raises ``BudgetExceeded``, and ``NotWellOriented`` where a polynomial is zero on a whole line and its order is
         needed beside it.
         """
-        return self._over(Point(self.ring, watch=Watch(self.budget.check)), {})
+        return self._over(Point(self.ring, watch=Watch(self.budget.check, self.budget.spend)), {})
 
     def _over(self, point: Point, signs: Signs) -> Cover:
         level = point.depth

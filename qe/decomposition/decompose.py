@@ -105,7 +105,9 @@ def decompose(
             levels, quantifiers, used, sectors_from, indices, tactics.partial, tactics.whole_free, thom_levels, way
         )
         lifter = Lifter(plan, budget, anytime=tactics.anytime)
-        root = lifter.run(Point(Ring.of(order), watch=Watch(budget.check)), compile_matrix(strong, places))
+        root = lifter.run(
+            Point(Ring.of(order), watch=Watch(budget.check, budget.spend)), compile_matrix(strong, places)
+        )
         if lifter.lacking:
             return attempt(used, (*added, *lifter.lacking))
         restricted = tuple(tuple(sorted(indices.get(k, ()))) for k in range(size)) if indices else ()

@@ -28,7 +28,7 @@ def follows(answer: Formula, table: CellTable) -> bool:
         return False
     if has_root_atoms(answer):
         return True
-    claim, cells = convert(answer, Ring.of(table.order)), list(free_cells(table))
+    claim, cells = convert(answer, Ring.of(table.order)), free_cells(table)
     for truth in (True, False):
         columns = Columns([c for c in cells if c.truth is truth], table.factors[: table.free])
         if columns.where(claim)[not truth] != columns.everything:

@@ -42,7 +42,7 @@ def construct(table: CellTable, refine: Refine, levels: frozenset[int] = frozens
     """
     while True:
         try:
-            return formula_of_cells(table.factors[: table.free], list(free_cells(table))), table
+            return formula_of_cells(table.factors[: table.free], free_cells(table)), table
         except Undistinguished as pair:
             if pair.level in levels:
                 raise InternalError("derivatives do not separate the cells, against Thom's lemma") from pair

@@ -331,7 +331,7 @@ def lifted(
     Raises ``NotWellOriented``, ``BudgetExceeded``.
     """
     lifter = Lifter(_plan(plan), Budget(seconds, work))
-    point.watch.ask = lifter.budget.check
+    point.watch.ask, point.watch.spend = lifter.budget.check, lifter.budget.spend
     cell = lifter.cell(point, node, signs, dimension)
     return Lifted(cell, lifter.cells, lifter.stacks, tuple(lifter.lacking))
 

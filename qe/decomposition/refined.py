@@ -51,7 +51,7 @@ def refined(coarse: Decomposed, levels: frozenset[int], budget: Budget) -> CellT
         return replace(cell, stack=Stack(used, fine.sectors, fine.sections, tuple(cells)))
 
     try:
-        root = inner(Point(Ring.of(table.order), watch=Watch(budget.check)), table.root)
+        root = inner(Point(Ring.of(table.order), watch=Watch(budget.check, budget.spend)), table.root)
     except NotWellOriented:
         return None
     return replace(table, factors=lists, root=root)

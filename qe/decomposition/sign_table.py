@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
-from functools import cached_property, reduce
+from functools import cache, cached_property, reduce
 from itertools import combinations
 from operator import and_, or_
 
@@ -17,19 +17,20 @@ _MAY_BE = {sign: {ord(c): "01"[c in (character, "?")] for c in "+-0?"} for chara
 _WEAK_FIRST = (Relation.LE, Relation.GE, Relation.NE, Relation.EQ, Relation.LT, Relation.GT)
 
 
-def free_cells(table: CellTable) -> Iterator[FreeCell]:
+def free_cells(table: CellTable) -> list[FreeCell]:
     """All cells over the free variables at which the truth value is known."""
-    free = table.free
+    free, placed, cells = table.free, cache(placed_signs), list[FreeCell]()
 
-    def walk(cell: Cell, path: tuple[int, ...], signs: tuple[str, ...]) -> Iterator[FreeCell]:
+    def walk(cell: Cell, path: tuple[int, ...], signs: tuple[str, ...]) -> None:
         if cell.stack is None or len(path) == free:
             assert cell.truth is not None
-            yield FreeCell(path, signs, cell.truth)
+            cells.append(FreeCell(path, signs, cell.truth))
             return
         for position, below in enumerate(cell.stack.cells):
-            yield from walk(below, (*path, position), (*signs, placed_signs(cell.stack.used, below.signs)))
+            walk(below, (*path, position), (*signs, placed(cell.stack.used, below.signs)))
 
-    return walk(table.root, (), ())
+    walk(table.root, (), ())
+    return cells
 
 
 def placed_signs(used: tuple[int, ...], signs: str) -> str:

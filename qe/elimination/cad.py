@@ -116,7 +116,7 @@ def short_where(formula: Formula, known: Formula, options: Options, budget: Budg
     ring = Ring.of(question.prenex.order)
     whole = convert(question.prenex.matrix, ring)
     table = question.table(budget, whole_free=True, extra=tuple(polynomials(whole))).table
-    cells = list(free_cells(table))
+    cells = free_cells(table)
     outside = Columns(cells, table.factors).where(convert(known, ring))[1]
     answer = formula_of_cells(table.factors, [cell for k, cell in enumerate(cells) if not outside >> k & 1])
     return simplify(convert(answer, both.ring or Ring.of(both.free)), known, watch=budget.check)

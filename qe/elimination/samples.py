@@ -154,7 +154,9 @@ def pulls(body: Formula) -> Pulls | None:
             if isinstance(body, And) and len(parts) == len(args):
                 return lambda at: [condition for part in parts for condition in part(at)]
             if isinstance(body, Or) and parts:
-                return lambda at: min((part(at) for part in parts), key=lambda chosen: _total(chosen, at))
+                return lambda at: min(
+                    (part(at) for part in parts), key=lambda chosen: sum([_amiss(c, at)[1] for c in chosen])
+                )
     return None
 
 
@@ -193,10 +195,6 @@ def _amiss(condition: Condition, at: Sequence[float]) -> tuple[float, float]:
     else:
         away = max(0.0, MARGIN * size - total)
     return away, abs(away) / size if away else 0.0
-
-
-def _total(conditions: Sequence[Condition], at: Sequence[float]) -> float:
-    return sum([_amiss(condition, at)[1] for condition in conditions])
 
 
 def _value(terms: Terms, at: Sequence[float]) -> float:

@@ -2,14 +2,15 @@
 
 from __future__ import annotations
 
-import random
-from collections.abc import Callable, Iterator
+from collections.abc import Callable
 from contextlib import suppress
 from dataclasses import dataclass
 from fractions import Fraction
 
 from qe.elimination.protocol import Context
 from qe.elimination.samples import pulls, relaxed
+from qe.engine.redundant import COARSE, FINE, FIRST, Points
+from qe.exact.watch import IDLE
 from qe.formula.build import exists
 from qe.formula.evaluate import holds_at
 from qe.formula.features import length
@@ -19,15 +20,6 @@ from qe.formula.traverse import atoms, bound_variables, conjuncts
 from qe.options import Budget
 from qe.proof.step import Nested
 
-PATTERNS = ((0,), (1,), (-1,), (1, -2, 3, -5), (-3, 2, -1, 4), (Fraction(1, 7), 2), (9, Fraction(-1, 3)), (1, 8, 64))
-"""Coordinates of the points that are tried, repeated as far as needed: signs and sizes in several combinations."""
-
-COORDINATES = tuple(
-    Fraction(k, n) for k, n in ((0, 1), (1, 10), (1, 3), (1, 2), (1, 1), (2, 1), (-1, 2), (-1, 1), (-3, 1))
-)
-SCATTERED = 60
-"""How many points with these coordinates are tried before a question that is not cheap."""
-
 DEGREES = {1: 40, 2: 8, 3: 3, 4: 2}
 """With so many variables a formula of at most this total degree is decided; with more, linear ones are."""
 
@@ -36,9 +28,6 @@ MANY = 20
 
 BEYOND = 1.7
 """How far conditions pull a point: so many times as far as to where they would hold if they were linear."""
-
-FINE = 10**6
-"""The denominators of the place where that ends."""
 
 SETTLE_WORK = 2000
 """Units of work for the question whether an answer is constant."""
@@ -68,7 +57,7 @@ def constant(formula: Formula, context: Context, start: Start | None) -> Formula
         decisions.append(decide(sentence, context.options, budget).nested(sentence))
         return decisions[-1].answer == TRUE
 
-    value = constant_value(formula, satisfiable, question)
+    value = constant_value(formula, satisfiable, question, context.budget.check)
     if value is None:
         return formula
     context.log.choice("", (), f"the answer was decided to be {value}")
@@ -80,7 +69,10 @@ def constant(formula: Formula, context: Context, start: Start | None) -> Formula
 
 
 def constant_value(
-    formula: Formula, is_satisfiable: Callable[[Formula], bool], question: Formula | None = None
+    formula: Formula,
+    is_satisfiable: Callable[[Formula], bool],
+    question: Formula | None = None,
+    watch: Callable[[], object] = IDLE,
 ) -> Formula | None:
     """TRUE or FALSE if the quantifier-free formula is equivalent to that and deciding it is cheap, else None.
 
@@ -91,37 +83,27 @@ def constant_value(
     names = formula.free
     if not names:
         return None
-    cheap = _is_cheap(formula, len(names))
-    if not cheap and (question is None or not _closes(question) or sum(1 for _ in atoms(formula)) > LONG):
+    listed = list(atoms(formula))
+    cheap = len(listed) <= ATOMS and max(a.poly.total_degree for a in listed) <= DEGREES.get(len(names), 1)
+    if not cheap and (question is None or not _closes(question) or len(listed) > LONG):
         return None
-    always = _at(formula, names, PATTERNS[0])
-    if not cheap and always:
-        return None
-    if any(_at(formula, names, pattern) is not always for pattern in PATTERNS[1:]):
+    points, fails = Points(names, watch), nnf(formula, negate=True)
+    points.fill(FIRST)
+    always = bool(points.holding(nnf(formula)))
+    if always and (not cheap or points.holding(fails)):
         return None
     if holds_at(formula, _middle(formula, names)) is not always:
         return None
     if not always and (reached := _pulled(formula, names)) is not None and holds_at(formula, reached):
         return None
-    if not cheap and any(_at(formula, names, pattern) for pattern in _scattered(len(names))):
+    if points.fill(COARSE + FINE) and points.holding(fails if always else nnf(formula)):
         return None
-    exception = nnf(formula, negate=always)
+    exception = fails if always else nnf(formula)
     if question is not None and not always and (not cheap or length(question)[1] < length(formula)[1]):
         exception = question
     if is_satisfiable(exists(exception.free, exception)):
         return None
     return TRUE if always else FALSE
-
-
-def _at(formula: Formula, names: tuple[str, ...], pattern: tuple[int | Fraction, ...]) -> bool:
-    return holds_at(formula, {name: pattern[i % len(pattern)] for i, name in enumerate(names)})
-
-
-def _scattered(size: int) -> Iterator[tuple[Fraction, ...]]:
-    """More points, the same ones each time, for a question that takes longer than looking at them."""
-    chosen = random.Random(size)
-    for _ in range(SCATTERED):
-        yield tuple(chosen.choice(COORDINATES) for _ in range(size))
 
 
 def _middle(formula: Formula, names: tuple[str, ...]) -> dict[str, Fraction]:
@@ -153,7 +135,7 @@ def _pulled(formula: Formula, names: tuple[str, ...]) -> dict[str, Fraction] | N
     with suppress(OverflowError, ValueError):  # beyond the range of floats
         point = [float(start.get(name, 0)) for name in ring.names]
         relaxed(conditions, point, BEYOND, Budget(), 0)
-        return {name: Fraction(point[ring.index[name]]).limit_denominator(FINE) for name in names}
+        return {name: Fraction(point[ring.index[name]]).limit_denominator() for name in names}
     return None
 
 
@@ -162,8 +144,3 @@ def _closes(question: Formula) -> bool:
     if question.is_quantifier_free:
         return False
     return len(question.free) + len(bound_variables(question)) <= MANY
-
-
-def _is_cheap(formula: Formula, size: int) -> bool:
-    listed = list(atoms(formula))
-    return len(listed) <= ATOMS and max(a.poly.total_degree for a in listed) <= DEGREES.get(size, 1)

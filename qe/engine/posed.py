@@ -11,7 +11,7 @@ from qe.formula.assumed import Aim, Posed, claimed
 from qe.formula.build import convert
 from qe.formula.counting import without_root_atoms
 from qe.formula.normal import rename_apart, without_clashes
-from qe.formula.syntax import TRUE, Formula
+from qe.formula.syntax import TRUE
 from qe.options import Budget, Options
 from qe.proof.answer import Answer
 from qe.proof.run_log import RunLog
@@ -35,13 +35,13 @@ def answered(problem: Posed, options: Options, budget: Budget) -> Known:
         made = answered_assuming(plain, known, options, budget, generic=problem.aim is Aim.GENERIC)
     made.outcome.log.entries[:0] = log.entries
     formula, ring = made.outcome.formula, Ring.of(problem.formula.free) if problem.formula.free else None
-    outcome = made.outcome if ring is None else replace(made.outcome, formula=_moved(formula, ring))
+    outcome = (
+        made.outcome
+        if ring is None
+        else replace(made.outcome, formula=convert(formula, ring) if formula.is_quantifier_free else formula)
+    )
     given = made.assuming if ring is None else convert(made.assuming, problem.formula.ring or ring)
     return replace(made, question=problem.formula, outcome=outcome, assuming=given)
-
-
-def _moved(formula: Formula, ring: Ring) -> Formula:
-    return convert(formula, ring) if formula.is_quantifier_free else formula
 
 
 def proved(known: Known, options: Options, budget: Budget) -> Known:

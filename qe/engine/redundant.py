@@ -16,6 +16,7 @@ from fractions import Fraction
 from qe.elimination.protocol import Context
 from qe.errors import Unable
 from qe.exact.number import Values
+from qe.exact.ring import Poly
 from qe.formula.build import conj, disj, exists
 from qe.formula.features import length
 from qe.formula.normal import nnf
@@ -216,6 +217,7 @@ class Points:
     watch: Callable[[], object]
     listed: list[Mapping[str, Fraction | int]] = field(default_factory=list)
     known: dict[Formula, tuple[int, int]] = field(default_factory=dict)
+    signs: dict[Poly, tuple[int, int, int]] = field(default_factory=dict)
     chosen: random.Random = field(default_factory=lambda: random.Random(1))
 
     def fill(self, count: int) -> bool:
@@ -256,9 +258,18 @@ class Points:
                 for arg in args:
                     mask |= self.holding(arg)
             case Atom(poly, relation):
-                self.watch()
-                for k in range(seen, len(self.listed)):
-                    sign = poly.sign_at([self.listed[k].get(name, 0) for name in poly.ring.names])
-                    mask |= relation.holds(sign) << k
+                below, above = self.signs_of(poly)
+                kinds = {-1: below, 0: everywhere & ~(below | above), 1: above}
+                mask = sum(kinds[sign] for sign in relation.signs)
         self.known[formula] = len(self.listed), mask
         return mask
+
+    def signs_of(self, poly: Poly) -> tuple[int, int]:
+        """Where a polynomial is negative, and where it is positive."""
+        seen, below, above = self.signs.get(poly, (0, 0, 0))
+        self.watch()
+        for k in range(seen, len(self.listed)):
+            sign = poly.sign_at([self.listed[k].get(name, 0) for name in poly.ring.names])
+            below, above = below | (sign < 0) << k, above | (sign > 0) << k
+        self.signs[poly] = len(self.listed), below, above
+        return below, above

@@ -14,17 +14,22 @@ PIECE = 1_000_000
 """Pairs of terms that are multiplied in one call: less than a tenth of a second, unless the numbers are very long."""
 
 
-def _go_on() -> None:
+PAIRS = 20_000
+"""Of so many, times the words of their coefficients, the products take one unit of work."""
+
+
+def _go_on(units: int = 0) -> None:
     """No clock: the work goes on."""
 
 
 class Watch:
-    """Something to be asked between steps. A copy in another process asks nothing until it is given ``ask`` there."""
+    """Something to be asked between steps, and told of long ones. A copy in another process does neither until it is
+    given ``ask`` and ``spend`` there."""
 
-    __slots__ = ("ask",)
+    __slots__ = ("ask", "spend")
 
-    def __init__(self, ask: Callable[[], object] = _go_on) -> None:
-        self.ask: Callable[[], object] = ask
+    def __init__(self, ask: Callable[[], object] = _go_on, spend: Callable[[int], object] = _go_on) -> None:
+        self.ask, self.spend = ask, spend
 
     def __call__(self) -> None:
         self.ask()
@@ -40,7 +45,10 @@ IDLE = Watch()
 def watched_product(a: Poly, b: Poly, watch: Watch) -> Poly:
     """a*b, where both have many terms in pieces of a, with a look at the watch before each."""
     watch()
-    if a.term_count() * b.term_count() <= PIECE:
+    pairs = a.term_count() * b.term_count()
+    if pairs > PAIRS // 20:
+        watch.spend(pairs * (a.height_bits() + b.height_bits()) // (64 * PAIRS))
+    if pairs <= PIECE:
         return a * b
     terms, step = a.terms(), max(1, PIECE // b.term_count())
     total = a.ring.constant(0)

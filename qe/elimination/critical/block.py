@@ -136,7 +136,7 @@ class Run:
         begins in it: then all of (p, c] is interior (Rockafellar 1970, Theorem 6.1), and otherwise p has a
         neighbourhood outside.
         """
-        origin = Point(self.system.ring, watch=Watch(self.budget.check))
+        origin = Point(self.system.ring, watch=Watch(self.budget.check, self.budget.spend))
         if box is None:
             found = self._explored(surfaces, hint, origin)
         else:
@@ -193,7 +193,7 @@ class Run:
             levels = factor_lists(boundary, size, operator, self.budget, closed)
             known = Shape.CLOSED if shape is Shape.CONVEX and size > 2 and operator.evaluates else shape
             builder = TableBuilder(levels, operator, boundary, known, truth, self.budget)
-            root = builder.run(Point(self.system.ring, watch=Watch(self.budget.check)))
+            root = builder.run(Point(self.system.ring, watch=Watch(self.budget.check, self.budget.spend)))
             outer = Ring.of(self.system.ring.names[:size])
             factors = tuple(tuple(f.convert(outer) for f in level) for level in levels)
             table = CellTable(outer.names, ("",) * size, TRUE, operator.proof, factors, root)

@@ -192,6 +192,16 @@ def test_a_long_product_is_left_between_two_pieces(monkeypatch: pytest.MonkeyPat
     assert len(asked) == 4
 
 
+def test_long_products_are_work() -> None:
+    """A search for values of a form on a sphere overran its share of the work a hundred times in a few products."""
+    units: list[int] = []
+    short, tall = (X + Y + Z + 1) ** 3, (X + 10**900 * Y + Z + 1) ** 6
+    watched_product(short, short, Watch(spend=units.append))
+    assert units == []
+    watched_product(tall, tall, Watch(spend=units.append))
+    assert units[0] > 10
+
+
 def test_a_remainder_sequence_is_left_between_two_products() -> None:
     f, g = (p.coefficients(1) for p in EQUAL_ROOTS)
     point = _root_of_a_quintic(lambda: None)
