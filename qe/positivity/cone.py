@@ -21,7 +21,7 @@ from qe.exact.ring import Poly, Ring
 from qe.formula.syntax import Atom, Formula, Relation
 from qe.positivity.identity import Positive, monomials
 from qe.positivity.ordered import ordered_differences
-from qe.positivity.prove import nowhere_negative
+from qe.positivity.prove import FEWEST_VARIABLES, nowhere_negative
 from qe.positivity.samples import may_be_positive
 
 MOST_VARIABLES, MOST_COEFFICIENTS, MOST_CHOICES = 5, 1_500, 12
@@ -72,7 +72,8 @@ def _in_forms(poly: Poly, chosen: Sequence[Bound]) -> Positive | None:
     every = frozenset(range(total.ring.size))
     proof = monomials(total)
     if proof is None and may_be_positive(total, every):
-        proof = ordered_differences(total, every) or nowhere_negative(total, every)
+        least = FEWEST_VARIABLES + len(total.variables) - len(poly.variables)  # one more is the number 1
+        proof = ordered_differences(total, every) or nowhere_negative(total, every, least)
     if proof is None:
         return None
     never = {total.ring.gen(k) for k, bound in enumerate(chosen) if bound[2]}

@@ -17,8 +17,9 @@ FEWEST_VARIABLES = 4
 
 
 @lru_cache(maxsize=5_000)
-def nowhere_negative(poly: Poly, orthant: frozenset[int]) -> Positive | None:
-    """That the polynomial is nowhere negative where the variables of ``orthant`` are not negative."""
+def nowhere_negative(poly: Poly, orthant: frozenset[int], least: int = FEWEST_VARIABLES) -> Positive | None:
+    """That the polynomial is nowhere negative where the variables of ``orthant`` are not negative; by a semidefinite
+    program from so many variables on."""
     used, degree = poly.variables, poly.total_degree
     if not 2 <= degree <= MOST_DEGREE or len(used) > MOST_VARIABLES or poly.term_count() > MOST_TERMS:
         return None
@@ -28,4 +29,4 @@ def nowhere_negative(poly: Poly, orthant: frozenset[int]) -> Positive | None:
     found = binomial_squares(poly, signed)
     if found is None and signed:
         found = ordered_differences(poly, signed)
-    return found or (sum_of_squares(poly, signed) if len(used) >= FEWEST_VARIABLES else None)
+    return found or (sum_of_squares(poly, signed) if len(used) >= least else None)

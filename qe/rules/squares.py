@@ -45,11 +45,13 @@ def known_signs(variables: tuple[str, ...], body: Formula, context: BlockContext
         return None
     from qe.positivity.conditions import conditions_of, positive_under  # what finds identities is seldom needed
     from qe.positivity.cone import bounds_of, positive_on_cone
+    from qe.positivity.nearby import positive_beyond
     from qe.positivity.prove import nowhere_negative
 
     facts = context.facts.extended([p for p in conjuncts(body) if isinstance(p, Atom) and p.poly.total_degree == 1])
     ring = polys[0].ring
     orthant = frozenset(i for i in range(ring.size) if -1 not in facts.signs(generator(ring, i)))
+    positive = [i for i in orthant if 0 not in facts.signs(generator(ring, i))]
     stated = (*conjuncts(body), *context.known)
     bounds, forms = bounds_of(stated), dict(conditions_of(stated))
     signs: dict[Poly, frozenset[int]] = {}
@@ -69,7 +71,12 @@ def known_signs(variables: tuple[str, ...], body: Formula, context: BlockContext
             context.watch()
             p = poly * sign
             under = () if poly in forms else forms.values()  # of conditions that imply one another one has to stay
-            proof = nowhere_negative(p, orthant) or positive_on_cone(p, bounds) or positive_under(p, under, orthant)
+            proof = (
+                positive_beyond(p, orthant, positive)
+                or nowhere_negative(p, orthant)
+                or positive_on_cone(p, bounds)
+                or positive_under(p, under, orthant)
+            )
             if proof is None:
                 continue
             signs[poly] = frozenset((sign,)) if proof.strict else frozenset((0, sign))
