@@ -16,7 +16,8 @@ _NONE = -(10**9)  # the exponent of zero
 
 def plain_frame(flat: Flat, forms: Sequence[Quadratic]) -> Flat:
     """The flat as it is, but for one unit of length where the constraints are much larger or smaller than 1."""
-    return flat.in_units_of(_unit(forms))
+    unit = _unit(forms)
+    return Flat(flat.origin, tuple(tuple(unit * d for d in direction) for direction in flat.basis))
 
 
 def centred_frame(flat: Flat, forms: Sequence[Quadratic]) -> Flat:

@@ -224,7 +224,8 @@ class FieldElement(PythonNumber):
     def _as_algebraic(self) -> RealAlgebraic:
         if self.is_rational:
             return RealAlgebraic.rational(self.value[0])
-        p = self._minimal_polynomial()
+        p = fmpz_poly(fmpq_mat(self._products()).minpoly().numer().coeffs())  # of multiplication by the element
+        p = p if p.leading_coefficient() > 0 else -p
         if p.degree() == 2:
             is_smaller = (self * int(2 * p[2]) + int(p[1])).sign() < 0  # as 2a*x + b < 0 says
             return irreducible_roots(p)[0 if is_smaller else 1]
@@ -237,11 +238,6 @@ class FieldElement(PythonNumber):
             rows.append([power[i] for i in range(n)])
             power = power.left_shift(1) % self.field.modulus
         return rows
-
-    def _minimal_polynomial(self) -> fmpz_poly:
-        """Minimal polynomial of multiplication by the element on the power basis."""
-        p = fmpz_poly(fmpq_mat(self._products()).minpoly().numer().coeffs())
-        return p if p.leading_coefficient() > 0 else -p
 
     @property
     def minimal_polynomial(self) -> tuple[int, ...]:

@@ -68,10 +68,6 @@ class Flat:
                         point[i] = point[i] + z * d
         return tuple(point)
 
-    def in_units_of(self, length: Fraction) -> Flat:
-        """The same flat, with its coordinates counted in this length."""
-        return Flat(self.origin, tuple(tuple(length * d for d in direction) for direction in self.basis))
-
     def coordinates(self, point: Sequence[float]) -> list[float]:
         """Coordinates of the point of the flat that is nearest to a point, in floats."""
         from_origin = [p - float(o) for p, o in zip(point, self.origin, strict=True)]

@@ -370,14 +370,12 @@ class Poly:
         if number.denominator == 1:
             return Poly(self.ring, self.p.subs({slot: number.numerator}))
         rational = fmpq_mpoly(self.p, self.ring.qctx).subs({slot: fmpq(number.numerator, number.denominator)})
-        return Poly(self.ring, self._clear(rational, number.denominator ** self.degree(i)))
+        scale = number.denominator ** self.degree(i)
+        return Poly(self.ring, self.ring.ctx.from_dict({m: int((c * scale).p) for m, c in rational.terms()}))
 
     def at_rationals(self, values: Mapping[int, Fraction | int]) -> Poly:
         """A positive multiple of the polynomial with these variables set to rational numbers."""
         return reduce(lambda f, i: f.at_rational(i, values[i]), values, self)
-
-    def _clear(self, rational: fmpq_mpoly, scale: int) -> fmpz_mpoly:
-        return self.ring.ctx.from_dict({m: int((c * scale).p) for m, c in rational.terms()})
 
     def evaluate(self, values: Iterable[Fraction | int]) -> Fraction:
         """The value at a rational point (one value per ring variable)."""

@@ -64,9 +64,5 @@ def solutions(basis: Basis, *, constants: Mapping[int, RealAlgebraic] | None = N
     names = basis.ring.names
     given = {names[i]: value for i, value in (constants or {}).items()}
     zeros = Quotient(basis).zeros()
-    return [z for z in zeros if all(_is(z, name, value) for name, value in given.items() if name in z.values)]
-
-
-def _is(zero: Zero, name: str, value: RealAlgebraic) -> bool:
-    """Whether the zero of a minimal polynomial in a coordinate is this one."""
-    return select_root(value.poly, zero.values[name].ball).index == value.index
+    asked = [(z, [(z.values[name], value) for name, value in given.items() if name in z.values]) for z in zeros]
+    return [z for z, pairs in asked if all(select_root(v.poly, x.ball).index == v.index for x, v in pairs)]

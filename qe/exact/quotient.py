@@ -128,9 +128,10 @@ class Quotient:
     def powers(self) -> tuple[fmpq_mat, ...]:
         """Multiplication by each monomial of the basis."""
         known: dict[Exponents, fmpq_mat] = {}
+        one = fmpq_mat(self.size, self.size, [fmpq(i == j) for i in range(self.size) for j in range(self.size)])
         for monomial in self.monomials:
             k = next((k for k, e in enumerate(monomial) if e), None)
-            known[monomial] = _identity(self.size) if k is None else self.matrices[k] * known[shifted(monomial, k, -1)]
+            known[monomial] = one if k is None else self.matrices[k] * known[shifted(monomial, k, -1)]
         return tuple(known[m] for m in self.monomials)
 
     @cached_property
@@ -201,10 +202,6 @@ def signature(matrix: fmpq_mat) -> int:
     """
     coefficients = matrix.charpoly().coeffs()
     return sign_changes(coefficients) - sign_changes([-c if k % 2 else c for k, c in enumerate(coefficients)])
-
-
-def _identity(size: int) -> fmpq_mat:
-    return fmpq_mat(size, size, [fmpq(i == j) for i in range(size) for j in range(size)])
 
 
 def standard_monomials(leads: Iterable[Exponents], size: int, most: int, what: str) -> set[Exponents]:

@@ -21,7 +21,6 @@ from qe.exact.from_projection import COUNTED_TO, most_distinct
 from qe.exact.remainder import common_coefficients, divides, squarefree_coefficients
 from qe.exact.ring import Poly, Ring
 from qe.exact.tower import Tower
-from qe.exact.translate import put_in
 from qe.exact.univariate import from_univariate
 from qe.exact.watch import Watch
 
@@ -121,7 +120,11 @@ class Point:
         if stored is None:
             i = self.depth - 1
             assert self.parent is not None
-            stored = self.parent.reduce(f) if self._given is None else put_in(f, self._given)
+            stored = (
+                self.parent.reduce(f)
+                if self._given is None
+                else f.at_rationals({i: v for i, v in self._given.items() if f.degree(i)})
+            )
             if isinstance(self.value, fmpq) and stored.degree(i):
                 stored = stored.at_rational(i, Fraction(int(self.value.p), int(self.value.q)))
             self._reduced[f] = stored

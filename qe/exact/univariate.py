@@ -12,13 +12,8 @@ from qe.exact.ring import Poly, Ring
 
 def from_univariate(ring: Ring, i: int, p: fmpz_poly) -> Poly:
     """The FLINT univariate polynomial ``p`` as a polynomial in variable ``i``."""
-    unit = [0] * ring.size
-    terms = {}
-    for k, c in enumerate(p.coeffs()):
-        if c:
-            unit[i] = k
-            terms[tuple(unit)] = int(c)
-    return ring.from_terms(terms)
+    below, above = (0,) * i, (0,) * (ring.size - i - 1)
+    return ring.from_terms({(*below, k, *above): int(c) for k, c in enumerate(p.coeffs()) if c})
 
 
 def sign_changes(coefficients: Iterable[fmpz | fmpq]) -> int:

@@ -12,13 +12,12 @@ from qe.elimination.protocol import witness_of
 from qe.engine.run import solve
 from qe.errors import BudgetExceeded, Unable
 from qe.exact.algebraic import RealAlgebraic
-from qe.exact.number import ExactPoint, Values, optimum_in_latex, point_text, simplest
-from qe.exact.polynomial_system import solve_system
+from qe.exact.number import Values, optimum_in_latex, point_text, simplest
 from qe.exact.radicals import radical_text
 from qe.exact.ring import Poly, Ring
 from qe.formula.block import Block
 from qe.formula.build import atom, conj, convert, disj, exists, neg
-from qe.formula.syntax import FALSE, Atom, Constant, Formula, Relation
+from qe.formula.syntax import FALSE, TRUE, Constant, Formula, Relation
 from qe.optimization.finite import listed
 from qe.optimization.values import Goal, Members, first_answer, new_name, with_proof
 from qe.options import Budget, Options
@@ -177,7 +176,10 @@ def attained_by(
     goal: Goal, value: Number, taken: Formula, answer: Answer, limits: Budget, known: Values | None = None
 ) -> GlobalOptimum:
     """The optimum with the points that have it, of which one may be ``known``."""
-    points, having = stationary(goal, value), level_set(goal, value, limits)
+    from qe.optimization.guess import stationary_points
+
+    points = stationary_points(goal, value) if goal.conditions == TRUE else ()
+    having = level_set(goal, value, limits)
     point = dict(points[0]) if points else known or point_of(goal, value, limits)
     points, optimal = points or listed(having, goal.variables, limits), OptimumStatus.OPTIMAL
     return GlobalOptimum(optimal, value, True, point, having, taken, goal.value, answer, points=points)
@@ -185,9 +187,11 @@ def attained_by(
 
 def point_of(goal: Goal, value: Number, budget: Budget) -> Values:
     """A point with this value, which is the least or greatest one. Raises ``Unable`` where none is found."""
+    from qe.optimization.guess import stationary_points
+
     place = exists((goal.value, *goal.parameters, *goal.variables), _place(goal, value))
-    known = solve(place, Options(), budget).witness
-    if known is None:
+    known = solve(place, Options(), budget).witness or next(iter(stationary_points(goal, value)), {})
+    if not known:
         raise Unable("the least value was found, but no point that has it")
     return {name: known.get(name, Fraction(0)) for name in goal.variables}
 
@@ -205,29 +209,6 @@ def _proof_of(goal: Goal, optimum: GlobalOptimum) -> Members:
         return []
     known = {**optimum.point, goal.value: optimum.value}
     return [(POINT, witness_of(problem, {name: known.get(name, Fraction(0)) for name in problem.variables}))]
-
-
-def stationary(goal: Goal, value: Number) -> tuple[ExactPoint, ...]:
-    """Without constraints: all points with this least value, where the zeros of the gradient are finitely many.
-
-    Empty where there are constraints or more zeros. A point where a polynomial is least on all of space is a zero of
-    its gradient (Fermat).
-    """
-    match goal:
-        case Goal(conditions=Constant(True), graph=Atom(equation), polynomial=(objective, _), variables=(_, *_)):
-            ring = goal.ring
-            slopes = [objective.derivative(ring.index[name]) for name in goal.variables]
-            try:
-                zeros = solve_system([*slopes, equation], variables=[ring.index[goal.value]])
-            except Unable:
-                return ()
-            points = (
-                ExactPoint({name: simplest(zero.values[name].to_algebraic()) for name in goal.variables})
-                for zero in zeros
-                if zero.values[goal.value] == value
-            )
-            return tuple(sorted(points, key=lambda point: tuple(point.values())))
-    return ()
 
 
 def _place(goal: Goal, value: Number) -> Formula:

@@ -12,13 +12,15 @@ from __future__ import annotations
 
 import random
 from collections.abc import Iterator, Sequence
+from contextlib import suppress
 from math import isinf
 from typing import Any
 
 from qe.elimination.samples import bounds
-from qe.errors import BudgetExceeded
+from qe.errors import BudgetExceeded, Unable
 from qe.exact.near_zeros import STEPS, NearZeros, Point, value
-from qe.exact.number import Number, Values
+from qe.exact.number import ExactPoint, Number, Values, simplest
+from qe.exact.polynomial_system import solve_system
 from qe.exact.ring import Poly, Ring
 from qe.formula.build import conj
 from qe.formula.syntax import Atom, Relation
@@ -72,6 +74,19 @@ def guess(sign: int, goal: Goal, budget: Budget) -> tuple[Number, Values] | None
         place[name] = coordinate
     there = holds_at(conj((goal.graph, goal.conditions)), place)
     return optimum, {name: place[name] for name in goal.variables} if there else {}
+
+
+def stationary_points(goal: Goal, optimum: Number) -> tuple[ExactPoint, ...]:
+    """The points that meet the theorem and have this value, ascending, where the system has finitely many solutions;
+    else none. Without conditions they are all that have it (Fermat)."""
+    found, points = _stationary(goal), list[ExactPoint]()
+    with suppress(Unable):
+        for zero in solve_system(found[0]) if found else ():
+            value, *place = (simplest(zero.values[name].to_algebraic()) for name in (goal.value, *goal.variables))
+            point = ExactPoint(zip(goal.variables, place, strict=True))
+            if value == optimum and holds_at(goal.conditions, point):
+                points.append(point)
+    return tuple(sorted(points, key=lambda point: tuple(point.values())))
 
 
 def _stationary_points(zeros: NearZeros, system: tuple[list[Poly], list[Atom]], variables: int) -> Iterator[Point]:

@@ -19,10 +19,11 @@ from qe.exact.algebraic import RealAlgebraic
 from qe.exact.balls import ends, precision
 from qe.exact.enclosure import Jet, Sides, box_sides, constant, root_jet, smooth_side
 from qe.exact.nearby import rational_between
-from qe.exact.translate import translated
 from qe.options import Budget
 from qe.regions.described import Described as Region
 from qe.regions.slices import has_closed_slices, slice_area
+from qe.rules.lift import Solve
+from qe.rules.normal_position import at_steps
 
 MOST_BOXES = 60_000
 FAR = 40
@@ -151,7 +152,10 @@ def _recentred(piece: Piece) -> Piece:
         if root is None:
             return None
         value = None if root.value is None else root.value - origin[root.poly.level]
-        return RootFunction(translated(root.poly, origin), root.k, value)
+        ring, places = root.poly.ring, zip(piece.ranges, origin, strict=True)
+        tops = [(r.variable, ring.var(r.variable) * v.denominator + v.numerator, v.denominator) for r, v in places]
+        steps = [Solve(variable, top, ring.constant(bottom)) for variable, top, bottom in tops]
+        return RootFunction(at_steps(root.poly, steps), root.k, value)
 
     return replace(piece, ranges=tuple(replace(r, lower=moved(r.lower), upper=moved(r.upper)) for r in piece.ranges))
 

@@ -14,7 +14,7 @@ convex g; and ``ex x. g`` where g is convex in x and the moved variables.
 from __future__ import annotations
 
 from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
-from itertools import chain, combinations
+from itertools import chain, combinations, product
 
 from qe.exact.ring import Poly
 from qe.formula.build import atom, exists, forall
@@ -76,7 +76,9 @@ def _mirrors(variables: Sequence[str], body: Formula, watch: Callable[[], object
     if not single or not is_short(body, _TERMS):
         return
     same = _shape(body, {})
-    for mirror in chain(_sign_changes(single, inner, polynomials(body)), _exchanges(single)):
+    pairs = product(combinations(single, 2), (1, -1))
+    exchanges = ({one: (other, sign), other: (one, sign)} for (one, other), sign in pairs)
+    for mirror in chain(_sign_changes(single, inner, polynomials(body)), exchanges):
         watch()
         moved = frozenset(mirror) & frozenset(variables)
         if is_convex(body, moved) and _shape(body, mirror) == same:
@@ -97,12 +99,6 @@ def _sign_changes(single: Sequence[str], inner: Sequence[str], polys: Sequence[P
             )
             if chosen[0] in single and all(image in known for image in images):
                 yield {name: (name, -1) for name in chosen}
-
-
-def _exchanges(single: Sequence[str]) -> Iterator[Mirror]:
-    for one, other in combinations(single, 2):
-        for sign in (1, -1):
-            yield {one: (other, sign), other: (one, sign)}
 
 
 def is_convex(formula: Formula, moved: Collection[str]) -> bool:

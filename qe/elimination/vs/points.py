@@ -85,17 +85,14 @@ class CubicRoot:
 
     @property
     def discriminant(self) -> Poly:
-        return cubic_discriminant(*self.coefficients)
+        """a^4 times the squares of the differences of the roots."""
+        d, c, b, a = self.coefficients
+        return b * b * c * c - 4 * (a * c * c * c + b * b * b * d) + 18 * (a * b * c * d) - 27 * (a * a * d * d)
 
     def __str__(self) -> str:
         d, c, b, a = map(_bracket, self.coefficients)
         which = "a root" if self.index == SOME else f"root {self.index} of 3" if self.index else "the root"
         return f"({which} of {a}*x^3 + {b}*x^2 + {c}*x + {d})" + _suffix(self.epsilon)
-
-
-def cubic_discriminant(d: Poly, c: Poly, b: Poly, a: Poly) -> Poly:
-    """That of a*x^3 + b*x^2 + c*x + d: a^4 times the squares of the differences of its roots."""
-    return b * b * c * c - 4 * (a * c * c * c + b * b * b * d) + 18 * (a * b * c * d) - 27 * (a * a * d * d)
 
 
 @dataclass(frozen=True, slots=True)

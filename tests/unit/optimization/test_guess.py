@@ -12,12 +12,14 @@ import qe
 from qe.api.input import read_objective
 from qe.exact.algebraic import real_roots
 from qe.exact.number import point_text, simplest
+from qe.exact.radicals import radical_text
 from qe.formula.evaluate import holds_at
 from qe.io.text import read
 from qe.optimization import global_optimum
 from qe.optimization.guess import guess
 from qe.optimization.values import Goal
 from qe.options import Budget
+from qe.rules import lift
 from tests.tables import each
 
 SHAPIRO = "a/(b + c) + b/(c + d) + c/(d + a) + d/(a + b)"
@@ -110,3 +112,15 @@ def test_beyond_an_algebraic_number(coefficients: list[int], k: int, at: Fractio
         value = simplest(root)
         better = global_optimum._beyond(sign, goal, value, Budget())
         assert holds_at(better, {goal.value: at}) == (at < value if sign > 0 else at > value)
+
+
+@each(
+    ("x*y + y*z + z*w", "x^2 + y^2 + z^2 + w^2 = 1", "(-1 - sqrt(5))/4", 4),
+    (CYCLIC, "a^2 + b^2 + c^2 = 1", "-sqrt(7)/8", 12),
+)
+def test_a_point_whose_coordinates_are_not_recognised(objective: str, where: str, value: str, degree: int) -> None:
+    """It is one of the finitely many points that meet the theorem: "no point that has it", and none in 60 s."""
+    found = qe.minimize(objective, where, timeout=60)
+    assert radical_text(found.value) == value
+    assert max(len(x.minimal_polynomial) for x in found.point.values() if not isinstance(x, Fraction)) > degree
+    assert lift.holds_at(read(where), found.point)
