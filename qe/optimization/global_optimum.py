@@ -12,6 +12,7 @@ from qe.elimination.protocol import witness_of
 from qe.engine.run import solve
 from qe.errors import BudgetExceeded, Unable
 from qe.exact.algebraic import RealAlgebraic
+from qe.exact.groebner import Limits
 from qe.exact.number import Values, optimum_in_latex, point_text, simplest
 from qe.exact.radicals import radical_text
 from qe.exact.ring import Poly, Ring
@@ -36,6 +37,9 @@ LEVEL_WORK = 2_000
 
 FIRST_WORK, GUESS_WORK, BOUND_WORK = 5_000, 100_000, 20_000
 """Units of work for the values before an optimum is guessed, for the guess, and for its proof."""
+
+FEW = Limits(elements=100, terms=500, bits=5_000, modular=True)
+"""Of a Gröbner basis for a point that elimination does not find."""
 
 POINT = "point"
 """The label of the certificate of a point."""
@@ -190,7 +194,7 @@ def point_of(goal: Goal, value: Number, budget: Budget) -> Values:
     from qe.optimization.guess import stationary_points
 
     place = exists((goal.value, *goal.parameters, *goal.variables), _place(goal, value))
-    known = solve(place, Options(), budget).witness or next(iter(stationary_points(goal, value)), {})
+    known = solve(place, Options(), budget).witness or next(iter(stationary_points(goal, value, FEW)), {})
     if not known:
         raise Unable("the least value was found, but no point that has it")
     return {name: known.get(name, Fraction(0)) for name in goal.variables}

@@ -18,9 +18,10 @@ from typing import Any
 
 from qe.elimination.samples import bounds
 from qe.errors import BudgetExceeded, Unable
+from qe.exact.groebner import Limits
 from qe.exact.near_zeros import STEPS, NearZeros, Point, value
 from qe.exact.number import ExactPoint, Number, Values, simplest
-from qe.exact.polynomial_system import solve_system
+from qe.exact.polynomial_system import LIMITS, solve_system
 from qe.exact.ring import Poly, Ring
 from qe.formula.build import conj
 from qe.formula.syntax import Atom, Relation
@@ -76,12 +77,12 @@ def guess(sign: int, goal: Goal, budget: Budget) -> tuple[Number, Values] | None
     return optimum, {name: place[name] for name in goal.variables} if there else {}
 
 
-def stationary_points(goal: Goal, optimum: Number) -> tuple[ExactPoint, ...]:
+def stationary_points(goal: Goal, optimum: Number, limits: Limits = LIMITS) -> tuple[ExactPoint, ...]:
     """The points that meet the theorem and have this value, ascending, where the system has finitely many solutions;
     else none. Without conditions they are all that have it (Fermat)."""
     found, points = _stationary(goal), list[ExactPoint]()
     with suppress(Unable):
-        for zero in solve_system(found[0]) if found else ():
+        for zero in solve_system(found[0], limits=limits) if found else ():
             value, *place = (simplest(zero.values[name].to_algebraic()) for name in (goal.value, *goal.variables))
             point = ExactPoint(zip(goal.variables, place, strict=True))
             if value == optimum and holds_at(goal.conditions, point):

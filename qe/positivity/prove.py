@@ -18,8 +18,7 @@ FEWEST_VARIABLES = 4
 
 @lru_cache(maxsize=5_000)
 def nowhere_negative(poly: Poly, orthant: frozenset[int], least: int = FEWEST_VARIABLES) -> Positive | None:
-    """That the polynomial is nowhere negative where the variables of ``orthant`` are not negative; by a semidefinite
-    program from so many variables on."""
+    """That it is nowhere negative where variables of ``orthant`` are not; semidefinite programs from ``least`` on."""
     used, degree = poly.variables, poly.total_degree
     if not 2 <= degree <= MOST_DEGREE or len(used) > MOST_VARIABLES or poly.term_count() > MOST_TERMS:
         return None
