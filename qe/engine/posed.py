@@ -35,11 +35,9 @@ def answered(problem: Posed, options: Options, budget: Budget) -> Known:
         made = answered_assuming(plain, known, options, budget, generic=problem.aim is Aim.GENERIC)
     made.outcome.log.entries[:0] = log.entries
     formula, ring = made.outcome.formula, Ring.of(problem.formula.free) if problem.formula.free else None
-    outcome = (
-        made.outcome
-        if ring is None
-        else replace(made.outcome, formula=convert(formula, ring) if formula.is_quantifier_free else formula)
-    )
+    outcome = made.outcome
+    if ring is not None and formula.is_quantifier_free:
+        outcome = replace(outcome, formula=convert(formula, ring))
     given = made.assuming if ring is None else convert(made.assuming, problem.formula.ring or ring)
     return replace(made, question=problem.formula, outcome=outcome, assuming=given)
 

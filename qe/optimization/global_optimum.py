@@ -182,7 +182,7 @@ def attained_by(
     """The optimum with the points that have it, of which one may be ``known``."""
     from qe.optimization.guess import stationary_points
 
-    points = stationary_points(goal, value) if goal.conditions == TRUE else ()
+    points = stationary_points(goal, value) if goal.polynomial and goal.conditions == TRUE else ()
     having = level_set(goal, value, limits)
     point = dict(points[0]) if points else known or point_of(goal, value, limits)
     points, optimal = points or listed(having, goal.variables, limits), OptimumStatus.OPTIMAL
@@ -194,8 +194,9 @@ def point_of(goal: Goal, value: Number, budget: Budget) -> Values:
     from qe.optimization.guess import stationary_points
 
     place = exists((goal.value, *goal.parameters, *goal.variables), _place(goal, value))
-    known = solve(place, Options(), budget).witness or next(iter(stationary_points(goal, value, FEW)), {})
-    if not known:
+    if (known := solve(place, Options(), budget).witness) is None:
+        known = next(iter(stationary_points(goal, value, FEW)), None)
+    if known is None:
         raise Unable("the least value was found, but no point that has it")
     return {name: known.get(name, Fraction(0)) for name in goal.variables}
 

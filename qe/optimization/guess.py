@@ -79,10 +79,10 @@ def guess(sign: int, goal: Goal, budget: Budget) -> tuple[Number, Values] | None
 
 def stationary_points(goal: Goal, optimum: Number, limits: Limits = LIMITS) -> tuple[ExactPoint, ...]:
     """The points that meet the theorem and have this value, ascending, where the system has finitely many solutions;
-    else none. Without conditions they are all that have it (Fermat)."""
+    else none. Of a polynomial without conditions they are all (Fermat)."""
     found, points = _stationary(goal), list[ExactPoint]()
     with suppress(Unable):
-        for zero in solve_system(found[0], limits=limits) if found else ():
+        for zero in solve_system(found[0], variables=range(1 + len(goal.variables)), limits=limits) if found else ():
             value, *place = (simplest(zero.values[name].to_algebraic()) for name in (goal.value, *goal.variables))
             point = ExactPoint(zip(goal.variables, place, strict=True))
             if value == optimum and holds_at(goal.conditions, point):
