@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import sys
 import time
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable
 from dataclasses import replace
 from fractions import Fraction
 from functools import partial
@@ -33,6 +33,7 @@ from qe.proof.run_log import RunLog
 
 if TYPE_CHECKING:  # the checker and the optimiser are loaded where they are used
     from qe.kernel.verdict import Verdict
+    from qe.processes.channel import Channel
     from qe.regions.region import Region
 
 WHOLE_SHARE, PARTS_SHARE = 0.5, 0.85
@@ -125,8 +126,6 @@ def _limited(
     that one of them has."""
     try:
         if methods:
-            from qe.api.race import raced
-
             return raced(partial(_answer_by, problem, options, check), methods, limits)
         work = partial(_answer, problem, options, check, cluster)
         return performed(work, problem.formula, limits, at_once=cluster is not None)
@@ -275,3 +274,33 @@ def verify(
         problem = claimed(given.known, given.formula, given.formula)
     arguments.flag(core, "core")
     return check(certificate, formula=problem, timeout=arguments.seconds(timeout), core=core)
+
+
+def raced(asked: Callable[[Method, Budget], Answer], methods: Iterable[Method], limits: Limits) -> Answer:
+    """The first answer that ``asked``, which can be pickled, has by one of the methods, within the limits; UNABLE, with
+    the reasons of all, where none has one."""
+    from qe.processes.racing import first
+
+    unproved: list[Answer] = []
+    order = sorted(methods, key=lambda method: method.value)
+    works = {method: partial(_attempt, asked, method) for method in order}
+    winner, answers = first(works, lambda answer: answer.status is Status.SOLVED, limits, kept=unproved.append)
+    answer = None if winner is None else answers[winner]
+    if winner is not None and isinstance(answer, Answer):
+        others = ", ".join(method.value for method in order if method is not winner)
+        answer.log.choice("", (), f"the first answer was that of {winner.value}, ahead of {others or 'no other'}")
+        return answer
+    if unproved:
+        return unproved[0]
+    reasons = [f"{method.value}: {_reason(answers.get(method))}" for method in order]
+    return Answer(Status.UNABLE, None, reason="; ".join(reasons))
+
+
+def _reason(outcome: object) -> str:
+    if isinstance(outcome, Answer):
+        return outcome.reason
+    return "its process ended without an answer" if outcome is None else str(outcome)
+
+
+def _attempt(asked: Callable[[Method, Budget], Answer], method: Method, channel: Channel) -> Answer:
+    return asked(method, channel.budget())

@@ -13,10 +13,10 @@ from qe.api.settings import Limited
 from qe.errors import InputError
 from qe.formula.assumed import Posed
 from qe.formula.build import conj
+from qe.formula.features import may_block, text_may_block
 from qe.formula.numbers import bounds_of_numbers
 from qe.formula.syntax import FALSE, TRUE, Formula
 from qe.formula.traverse import bound_variables, conjuncts
-from qe.formula.weight import may_block, text_may_block
 from qe.io.formats import Format
 from qe.io.names import refuse_numbers
 from qe.io.sharing import refuse_shared

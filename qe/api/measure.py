@@ -19,7 +19,7 @@ import sympy
 from qe.decomposition.pieces import Piece, Range, RootFunction
 from qe.errors import Unable
 from qe.exact.ring import Poly
-from qe.io.sympy_numbers import number_to_sympy
+from qe.io.sympy_reader import number_to_sympy
 from qe.regions.region import Region
 
 CHECKED = Fraction(1, 50)

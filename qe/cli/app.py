@@ -80,9 +80,9 @@ def find(
     **settings: Any,
 ) -> int:
     """Print exact points that satisfy FORMULA, one a line; the word none where there is no point."""
-    from qe.cli import points
+    from qe.cli import region as cli_region
 
-    return answered(partial(points.find, n=n, seed=seed), formula, format, settings)
+    return answered(partial(cli_region.find, n=n, seed=seed), formula, format, settings)
 
 
 @door(app, "region", also=("order",))
@@ -125,17 +125,17 @@ def equivalent(
     **settings: Any,
 ) -> int:
     """Print true if both formulas have the same solutions in all their free variables, else false."""
-    from qe.cli import points
+    from qe.cli import region as cli_region
 
-    return answered(partial(points.equivalent, other=read_source(other, format)), formula, format, settings)
+    return answered(partial(cli_region.equivalent, other=read_source(other, format)), formula, format, settings)
 
 
 @door(app, "witnesses")
 def witnesses(formula: Formula, format: InputFormat = None, **settings: Any) -> int:
     """Print solutions of the outermost block as terms in the free variables, each under its guard."""
-    from qe.cli import points
+    from qe.cli import region as cli_region
 
-    return answered(points.witnesses, formula, format, settings)
+    return answered(cli_region.witnesses, formula, format, settings)
 
 
 Objective = Annotated[str, typer.Argument(metavar="OBJECTIVE", show_default=False)]

@@ -329,7 +329,7 @@ def limited(
 
 
 def _may_block(text: str) -> bool:
-    from qe.formula.weight import text_may_block  # with what work in this process needs
+    from qe.formula.features import text_may_block  # with what work in this process needs
 
     return text_may_block(text)
 

@@ -63,7 +63,7 @@ def number_of(value: Coordinate, what: str, expected: str = "an exact number") -
     if isinstance(value, RealAlgebraic):
         return value
     if getattr(value, "is_number", None) is True:  # so it is an expression of SymPy
-        from qe.io.sympy_numbers import number_from_sympy
+        from qe.io.sympy_reader import number_from_sympy
 
         found = None if isinstance(value, Rational) else number_from_sympy(value)
         if found is not None:

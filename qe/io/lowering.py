@@ -22,11 +22,10 @@ from qe.formula.syntax import FALSE, TRUE, Formula, Relation
 from qe.formula.traverse import has_root_atoms
 from qe.io import surface as s
 from qe.io import terms
-from qe.io.auxiliaries import Exhausted
+from qe.io.auxiliaries import Exhausted, Place
 from qe.io.collected import sides
 from qe.io.collecting import Names
 from qe.io.names import refuse_numbers
-from qe.io.radicals import Place
 from qe.io.sharing import ordered, refuse_long
 from qe.io.terms import TermError, Value
 from qe.io.total import Total

@@ -16,9 +16,9 @@ from math import prod
 from typing import NamedTuple, TypeAlias, cast
 
 from qe.errors import Unable
+from qe.formula.features import written_out
 from qe.formula.relation import Relation
 from qe.formula.syntax import Formula
-from qe.formula.weight import written_out
 from qe.io import surface as s
 
 MOST_WRITTEN = 200_000

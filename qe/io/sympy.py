@@ -26,8 +26,7 @@ from qe.io import surface as s
 from qe.io.lowering import lower, lower_term
 from qe.io.names import bound_names
 from qe.io.substitution import over_one_ring
-from qe.io.sympy_numbers import number_to_sympy, numbers_in, symbol_of
-from qe.io.sympy_reader import Reader, shown, signs
+from qe.io.sympy_reader import Reader, number_to_sympy, numbers_in, shown, signs, symbol_of
 
 _FUNCTIONS = {"abs": "Abs", "sign": "sign", "sqrt": "sqrt", "min": "Min", "max": "Max"}
 

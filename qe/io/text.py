@@ -4,7 +4,7 @@ Operators from tight to loose: ``not`` (``~``), ``and`` (``/\\``), ``or`` (``\\/
 ``<->`` (``<==>``). A quantifier is ``ex`` or ``all`` (also ``exists forall Ex All E A``); its body runs to the end of
 its brackets. Relations ``= /= < <= > >=`` may be chained. Numbers are exact: ``3/4``, ``0.75``,
 ``1.5e-3``. Products need no sign where nothing else can be meant: ``2 x (y + 1)``; commas between conditions mean "and"
-(``qe.io.conditions``), terms alone are zero. ``x < root(2, x^2 - y)`` compares with the second smallest real root in
+(``text_quantifiers``), terms alone are zero. ``x < root(2, x^2 - y)`` compares with the second smallest real root in
 x. A name is a word, possibly with primes, or anything between backquotes: `` `my name` ``. ``#`` starts a comment.
 """
 

@@ -14,10 +14,9 @@ from qe.io import parser as p
 from qe.io import surface as s
 from qe.io import text_lexer
 from qe.io.collected import Coefficients
-from qe.io.conditions import SHARING, shared, together
-from qe.io.functions import RELATIONS
+from qe.io.parser import RELATIONS
 from qe.io.text_errors import SyntaxFailure
-from qe.io.text_quantifiers import QuantifiedParser
+from qe.io.text_quantifiers import SHARING, QuantifiedParser, shared, together
 from qe.io.tokens import END, Token
 from qe.spelling import WORD
 

@@ -12,10 +12,9 @@ from qe.formula.build import atom, conj, exists, neg, root_atom
 from qe.formula.syntax import TRUE, And, Formula, Relation
 from qe.io import cases, terms
 from qe.io import surface as s
-from qe.io.auxiliaries import Auxiliaries, Meaning
+from qe.io.auxiliaries import Auxiliaries, Auxiliary, Meaning, Place
 from qe.io.cases import Case, Cases
 from qe.io.collecting import chain
-from qe.io.radicals import Auxiliary, Place
 from qe.io.terms import TermError, Value
 from qe.io.total import Total
 

@@ -12,7 +12,7 @@ import sympy
 import qe
 from qe.cli.smt import Solver
 from qe.errors import Unable
-from qe.formula.weight import written_out
+from qe.formula.features import written_out
 from qe.io import surface as s
 from qe.io.sharing import named, ordered, refuse_long
 from qe.io.text import read

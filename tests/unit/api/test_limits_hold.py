@@ -13,8 +13,8 @@ import sympy
 
 import qe
 import qe.api.eliminate  # else this is a function
+from qe.api.eliminate import raced
 from qe.api.limits import limits_of, posed
-from qe.api.race import raced
 from qe.api.verify import with_derivation
 from qe.errors import BudgetExceeded, InternalError, Unable
 from qe.exact.algebraic import RealAlgebraic

@@ -7,9 +7,8 @@ from qe.formula.build import atom
 from qe.formula.evaluate import holds_at
 from qe.formula.syntax import TRUE, Relation
 from qe.io import cases, terms
-from qe.io.auxiliaries import MOST_CASES, Auxiliaries, Exhausted
+from qe.io.auxiliaries import MOST_CASES, Auxiliaries, Auxiliary, Exhausted, Place
 from qe.io.cases import Case
-from qe.io.radicals import Auxiliary, Place
 from qe.io.total import Fill, Total
 
 RING = Ring.of(("x", "y", "s1", "s2"))

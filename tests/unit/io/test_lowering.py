@@ -11,9 +11,8 @@ from qe.formula.evaluate import holds_at
 from qe.formula.relation import Relation
 from qe.formula.syntax import FALSE, TRUE, Formula
 from qe.io import surface as s
-from qe.io.functions import FUNCTIONS, RELATIONS
 from qe.io.lowering import lower, lower_term
-from qe.io.parser import TERM
+from qe.io.parser import FUNCTIONS, RELATIONS, TERM
 from qe.io.text_parser import TextParser
 from qe.io.total import Fill, Total
 from tests.tables import each

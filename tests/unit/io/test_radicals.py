@@ -10,7 +10,7 @@ from qe.exact.ring import Poly, Ring
 from qe.formula.build import atom, conj, disj, neg
 from qe.formula.evaluate import holds_at
 from qe.formula.syntax import TRUE, Exists, ForAll, Formula, Relation
-from qe.io.radicals import MOST_SUBSTITUTED, Auxiliary, Place, settled
+from qe.io.auxiliaries import MOST_SUBSTITUTED, Auxiliary, Place, settled
 from tests.strategies import polynomials
 from tests.tables import each
 

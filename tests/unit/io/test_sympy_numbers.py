@@ -6,7 +6,7 @@ import pytest
 import sympy
 
 from qe.exact.algebraic import RealAlgebraic
-from qe.io.sympy_numbers import decimal_of, number_from_sympy, number_to_sympy
+from qe.io.sympy_reader import decimal_of, number_from_sympy, number_to_sympy
 from tests.tables import each
 
 CUBIC = [RealAlgebraic.from_root([1, -3, 0, 1], low, low + 1) for low in (-2, 0, 1)]

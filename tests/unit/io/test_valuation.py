@@ -9,8 +9,8 @@ from qe.exact.ring import Ring
 from qe.formula.evaluate import holds_at
 from qe.formula.syntax import TRUE, Relation
 from qe.io import cases, terms
+from qe.io.auxiliaries import Place
 from qe.io.parser import TERM
-from qe.io.radicals import Place
 from qe.io.terms import TermError, Value
 from qe.io.text_parser import TextParser
 from qe.io.valuation import Valuation

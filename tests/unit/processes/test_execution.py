@@ -15,7 +15,7 @@ import pytest
 
 import qe
 from qe.errors import BudgetExceeded, InputError, InternalError, QEError, Unable
-from qe.formula.weight import may_block, text_may_block
+from qe.formula.features import may_block, text_may_block
 from qe.processes.channel import Channel, WorkerDied
 from qe.processes.execution import COLD, HERE, SWITCH, grace_of, perform
 from qe.processes.limits import Limits
