@@ -14,6 +14,7 @@ from typing import TYPE_CHECKING
 
 from qe.certify.verify import verify as kernel_verdict
 from qe.errors import CertificateRejected, InternalError, Unable
+from qe.formula.features import text_may_block
 from qe.formula.syntax import Formula
 from qe.options import VERIFY_SECONDS, Budget, Options
 from qe.processes.execution import perform, run
@@ -191,14 +192,9 @@ def _is_short(payload: Json) -> bool:
     size = 0
     for text in _texts(payload):
         size += len(text) + 1
-        if size > SMALL_TEXT or any(_exponent(rest) > SMALL_DEGREE for rest in text.split("^")[1:]):
+        if size > SMALL_TEXT or text_may_block(text, SMALL_DEGREE):
             return False
     return True
-
-
-def _exponent(text: str) -> int:
-    digits = text[: len(text) - len(text.lstrip("0123456789"))]
-    return int(digits[:9] or 0)
 
 
 def _texts(data: Json) -> Iterator[str]:

@@ -8,6 +8,7 @@ The guards of a case make sure that its denominators are not zero.
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
+from fractions import Fraction
 from itertools import product
 from typing import NamedTuple, TypeAlias
 
@@ -98,19 +99,19 @@ def total(parts: Sequence[Case]) -> Case:
 
 def times(left: Case, right: Case) -> Case:
     """The product."""
-    return Case((), terms.product(left.value, right.value), _multiplied(left.below, right.below))
+    below = dict(left.below)
+    for factor, k in right.below:
+        below[factor] = below.get(factor, 0) + k
+    return Case((), terms.product(left.value, right.value), tuple(below.items()))
 
 
 def inverse(case: Case) -> Case:
     """``1/case`` where it is not zero, which the guards of the result say."""
-    top = _value(case.value.poly.ring.constant(case.value.den))
+    bottom = case.value.poly
+    unit, below = (bottom.constant_value(), ()) if bottom.is_constant else split(bottom)
+    top = terms.number(bottom.ring, Fraction(case.value.den, unit))
     for factor, k in case.below:
         top = terms.product(top, terms.power(_value(factor), k))
-    bottom = case.value.poly
-    if bottom.is_constant:
-        return Case((), terms.quotient(top, case.value._replace(den=1)))
-    unit, below = split(bottom)
-    top = terms.quotient(top, _value(bottom.ring.constant(unit)))
     return Case(tuple(atom(factor, Relation.NE) for factor, _ in below), top, below)
 
 
@@ -144,13 +145,6 @@ def holds(case: Case, relation: Relation) -> Formula:
 def difference(left: Cases, right: Cases) -> Cases:
     """``left - right``: a comparison of the two compares it with zero."""
     return combine((left, right), lambda pair: total((pair[0], negative(pair[1]))))
-
-
-def _multiplied(left: Factors, right: Factors) -> Factors:
-    below = dict(left)
-    for factor, k in right:
-        below[factor] = below.get(factor, 0) + k
-    return tuple(below.items())
 
 
 def _value(poly: Poly) -> Value:

@@ -6,7 +6,7 @@ tree, which ``qe.io.valuation`` works out, or refuses where it is too large.
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Sequence
 from fractions import Fraction
 from typing import TypeAlias
 
@@ -50,12 +50,6 @@ def add_multiple(terms: Coefficients, factor: Term, name: Term, scale: int) -> b
         terms[key] = terms[key] + value if key in terms else value
         return True
     return False
-
-
-def total(parts: Iterable[Term]) -> Term:
-    """The sum of at least one part."""
-    terms: Coefficients = {}
-    return joined(terms, [part for part in parts if not add(terms, part)])
 
 
 def joined(terms: Coefficients, others: list[Term]) -> Term:

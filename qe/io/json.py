@@ -20,7 +20,7 @@ from qe.formula.notation import digits
 from qe.formula.syntax import FALSE, TRUE, And, Atom, Constant, Exists, ForAll, Formula, Not, Or, Relation, RootAtom
 from qe.io.names import check_name, names_in
 from qe.io.surface import MAX_DEPTH
-from qe.io.terms import MAX_DEGREE, TermError, integer
+from qe.io.terms import MAX_DEGREE, integer
 from qe.spelling import NUMBERS
 
 FORMAT, VERSION = "real formula", 1
@@ -142,7 +142,7 @@ def _read_poly(data: object, ring: Ring) -> Poly:
                 key = tuple(exponents)
                 if key in terms:
                     raise InputError(f"the exponents {exponents} occur twice")
-                terms[key] = _integer(coefficient)
+                terms[key] = integer(coefficient)
             case _:
                 raise InputError(f'["coefficient", [exponents]] expected, {json.dumps(term)[:40]} found')
     return ring.from_terms(terms)
@@ -151,10 +151,3 @@ def _read_poly(data: object, ring: Ring) -> Poly:
 def _is_term(coefficient: str, exponents: list[object], ring: Ring) -> bool:
     natural = all(isinstance(k, int) and not isinstance(k, bool) and 0 <= k <= MAX_DEGREE for k in exponents)
     return _INTEGER.fullmatch(coefficient) is not None and len(exponents) == ring.size and natural
-
-
-def _integer(text: str) -> int:
-    try:
-        return -integer(text[1:]) if text.startswith("-") else integer(text)
-    except TermError as error:
-        raise InputError(str(error)) from None

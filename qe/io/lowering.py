@@ -121,7 +121,7 @@ class Lowering:
         if isinstance(part, s.Node):
             self.nodes[id(part)] = self.node(part, Place())
         elif not isinstance(part, s.Root | s.Infinity):
-            self.values.remember(part)
+            self.values.terms[id(part)] = self.values.term(part)
 
     def node(self, node: s.Node, place: Place) -> Formula:
         """The formula that the node means at this place."""
@@ -196,7 +196,7 @@ class Lowering:
             return atom(a.poly, relation)
         b = self.values.term(right)
         if isinstance(a, Value) and isinstance(b, Value):
-            return terms.compare(a, relation, b)
+            return atom(terms.total((a, terms.negative(b))).poly, relation)
         return self.values.compared(self.values.listed(a), relation, self.values.listed(b), place)
 
     def root_comparison(self, side: s.Name, relation: Relation, root: s.Root) -> Formula:

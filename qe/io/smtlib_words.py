@@ -13,7 +13,7 @@ from qe.io.smtlib_parser import Expression, is_symbol, place, plain, show, words
 
 Meaning: TypeAlias = s.Term | s.Node
 
-_SIGNED = re.compile(r"(-?)([0-9]+\.?[0-9]*|\.[0-9]+)")
+_SIGNED = re.compile(r"-?(?:[0-9]+\.?[0-9]*|\.[0-9]+)")
 """What most solvers take for a number: a symbol for the standard, which may be declared."""
 
 
@@ -155,10 +155,9 @@ class Words:
         """What a symbol that nobody has declared means."""
         if word in ("true", "false"):
             return s.Truth(word == "true")
-        if (number := _SIGNED.fullmatch(plain(word))) is None:
+        if _SIGNED.fullmatch(plain(word)) is None:
             self.error(f"the symbol {plain(word)} is not declared", word)
-        value = self.number(number[2], word)
-        return s.Number(-value.value) if number[1] else value
+        return self.number(plain(word), word)
 
     def number(self, text: str, word: str) -> s.Number:
         from qe.io.terms import TermError, decimal

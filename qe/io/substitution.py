@@ -25,7 +25,10 @@ def substitute(formula: Formula, values: Mapping[str, s.Term]) -> Formula:
     if any(not isinstance(a, Atom) and a.variable in values for a in atoms(formula)):
         formula = without_root_atoms(formula)
     values = {name: term for name, term in values.items() if name in formula.free}
-    names = {name for term in values.values() for name in _names(term)}
+    inside = Names(s.unplaced, lambda name, at: None)
+    for term in values.values():
+        inside.part(term)
+    names = {*inside.all()}
     formula = rename_apart(formula, (*names, *values))
     own = formula.ring
     if own is None or not values:
@@ -67,12 +70,6 @@ def _put(formula: Formula, i: int, top: Poly, bottom: Poly) -> Formula:
     """The formula with top/bottom in the place of variable ``i``, for a positive constant ``bottom``."""
 
     return map_atoms(formula, lambda a: with_polynomial(a, a.poly.at_quotient(i, top, bottom)))
-
-
-def _names(term: s.Term) -> list[str]:
-    collected = Names(s.unplaced, lambda name, at: None)
-    collected.part(term)
-    return collected.all()
 
 
 def _polynomial(term: s.Term) -> Value | None:

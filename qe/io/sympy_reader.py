@@ -225,8 +225,7 @@ def numbers_in(expression: Any) -> list[str]:
 
 def decimal_of(number: Any) -> Fraction:
     """The decimal number that a finite SymPy ``Float`` prints: all digits it holds to be known, in base ten."""
-    text = str(number)
-    return -decimal(text[1:]) if text.startswith("-") else decimal(text)
+    return decimal(str(number))
 
 
 def number_to_sympy(number: RealAlgebraic) -> Any:

@@ -14,8 +14,6 @@ from typing import NamedTuple, cast
 
 from qe.errors import InputError
 from qe.exact.ring import Poly, Ring
-from qe.formula.build import atom
-from qe.formula.syntax import Formula, Relation
 
 MAX_EXPONENT = 10_000
 MAX_DEGREE = 10_000
@@ -40,9 +38,11 @@ class Value(NamedTuple):
 
 
 def integer(text: str) -> int:
-    """The value of a string of ASCII digits of any length up to ``MAX_DIGITS``."""
+    """The value of a string of ASCII digits of any length up to ``MAX_DIGITS``, perhaps with a minus in front."""
     if len(text) <= _CHUNK:
         return int(text)
+    if text[0] == "-":
+        return -integer(text[1:])
     if len(text) > MAX_DIGITS:
         raise TermError(f"a number with {len(text)} digits is too long")
     value = 0
@@ -54,7 +54,7 @@ def integer(text: str) -> int:
 
 
 def decimal(text: str) -> Fraction:
-    """The exact value of ``12``, ``1.25`` or ``1.5e-3``."""
+    """The exact value of ``12``, ``-1.25`` or ``1.5e-3``."""
     mantissa, _, exponent = text.replace("E", "e").partition("e")
     whole, _, decimals = mantissa.partition(".")
     value = Fraction(integer(whole + decimals), 10 ** len(decimals))
@@ -127,20 +127,8 @@ def product(left: Value, right: Value) -> Value:
     return Value(result, left.den * right.den, bits)
 
 
-def quotient(left: Value, right: Value) -> Value:
-    """``left / right`` for a constant ``right`` other than zero."""
-    if not right.poly.is_constant:
-        raise TermError("division by a term that contains a variable; multiply both sides out instead")
-    divisor = Fraction(right.poly.constant_value(), right.den)
-    if not divisor:
-        raise TermError("division by zero")
-    return product(left, number(left.poly.ring, 1 / divisor))
-
-
 def power(base: Value, exponent: int) -> Value:
     """``base ** exponent`` for a small natural ``exponent``; the zeroth power of anything is 1."""
-    if exponent < 0:
-        raise TermError("negative exponent; write a quotient by a constant instead")
     if exponent > MAX_EXPONENT:
         shown = f"exponent {exponent}" if exponent < 10**20 else "an exponent"
         raise TermError(f"{shown} is above the limit of {MAX_EXPONENT}")
@@ -154,11 +142,6 @@ def power(base: Value, exponent: int) -> Value:
     if base.den.bit_length() * exponent > MAX_BITS:
         raise TermError("the power is too large")
     return Value(poly**exponent, base.den**exponent, bits)
-
-
-def compare(left: Value, relation: Relation, right: Value) -> Formula:
-    """The atom ``left relation right``."""
-    return atom(total((left, negative(right))).poly, relation)
 
 
 def _multinomial(exponent: int, count: int) -> int:

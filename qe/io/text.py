@@ -126,8 +126,7 @@ def read_node(text: str) -> Node:
 
 def outermost(text: str) -> tuple[bool, tuple[str, ...]] | None:
     """Whether the outermost quantifier of a text that can be read is universal, and its names; None without one."""
-    text = _written_out(text)
-    node = parsed(parser_of(text), text, Failing(text, "<text>"))
+    node = read_node(text)
     return (node.universal, tuple(node.names)) if isinstance(node, Quantification) else None
 
 

@@ -150,15 +150,10 @@ class TextParser(QuantifiedParser):
         self.take("BAR", "DOT")
         return [within(s.Name(name, at), at) for name in names] if within else []
 
-    def connective(self) -> None:
+    def called(self, wants: int, make: Callable[[Token, list[Any]], s.Node]) -> None:
+        """``Or[f, g]``, ``Less[a, b]``."""
         token = self.advance()
-        closing = p.CLOSES[self.take("OPEN", "LEFT").kind]
-        self.open(p.FORMULA, closing, lambda parts: _connected(token, parts), many=True)
-
-    def compared(self) -> None:
-        token = self.advance()
-        closing = p.CLOSES[self.take("OPEN", "LEFT").kind]
-        self.open(p.TERM, closing, lambda parts: _compared(token, parts), many=True)
+        self.open(wants, p.CLOSES[self.take("OPEN", "LEFT").kind], lambda parts: make(token, parts), many=True)
 
     def cases(self) -> None:
         """``if f then a else b``, of formulas or of terms."""
@@ -219,9 +214,6 @@ class TextParser(QuantifiedParser):
         # a name that cancels is a name all the same
         return s.Sum([s.Product(s.Number(c), s.Name(x, at), at) if x else s.Number(c) for c, x in zip(numbers, names)])
 
-    def infinity(self) -> s.Term:
-        return s.Infinity(self.advance().at)
-
     def absolute(self) -> None:
         at = self.advance().at
         self.open(p.TERM, "CLOSEBAR", lambda parts: s.Apply("abs", parts, at))
@@ -243,13 +235,13 @@ class TextParser(QuantifiedParser):
         "LEFT": p.Prefix(p.FORMULA, p.NOT, listed),
         "BEGIN": p.Prefix(p.FORMULA, p.NOT, listed),
         "ELEMENT": p.Prefix(p.FORMULA, p.NOT, QuantifiedParser.element),
-        "CONNECTIVE": p.Prefix(p.FORMULA, p.NOT, connective),
-        "COMPARE": p.Prefix(p.FORMULA, p.NOT, compared),
+        "CONNECTIVE": p.Prefix(p.FORMULA, p.NOT, lambda self: self.called(p.FORMULA, _connected)),
+        "COMPARE": p.Prefix(p.FORMULA, p.NOT, lambda self: self.called(p.TERM, _compared)),
         "IF": p.Prefix(p.EITHER, p.ELSE, cases),
         "CHOICE": p.Prefix(p.TERM, p.PRIMARY, cases_call),
         "PIECEWISE": p.Prefix(p.TERM, p.PRIMARY, piecewise),
         "COMMAND": p.Prefix(p.FORMULA, p.NOT, command),
-        "INFINITY": p.Prefix(p.TERM, p.PRIMARY, infinity),
+        "INFINITY": p.Prefix(p.TERM, p.PRIMARY, lambda self: s.Infinity(self.advance().at)),
         "LINEAR": p.Prefix(p.TERM, p.PRIMARY, linear),
         **dict.fromkeys(("OPENBAR", "BAR"), p.Prefix(p.TERM, p.PRIMARY, absolute)),
         "RADICAL": p.Prefix(p.TERM, p.PRIMARY, radical),

@@ -37,10 +37,6 @@ class Valuation(Auxiliaries):
         self.fail, self.condition = fail, condition
         self.terms: dict[int, Meaning] = {}
 
-    def remember(self, term: s.Term) -> None:
-        """Value a part that others share; the caller keeps it alive, so its identity is a key."""
-        self.terms[id(term)] = self.term(term)
-
     # --- terms -----------------------------------------------------------------------------------------------
     def term(self, term: s.Term) -> Meaning:
         """What a term means: a polynomial where it can be one."""
@@ -117,7 +113,7 @@ class Valuation(Auxiliaries):
         quotient = self.times(left, self.inverse(right))
         if self.total is None:
             return quotient
-        zero = self.zero(right)
+        zero = [(*case.guards, atom(case.value.poly, Relation.EQ)) for case in self.listed(right)]
         outside = [case for n in self.listed(left) for case in self.outside("/", n)]
         return (*self.listed(quotient), *(c for case in outside for g in zero for c in cases.guarded(g, case)))
 
@@ -128,10 +124,6 @@ class Valuation(Auxiliaries):
             if case.value.poly
             for inverted in cases.guarded(case.guards, cases.inverse(case))
         )
-
-    def zero(self, value: Meaning) -> list[tuple[Formula, ...]]:
-        """The guards under which a term is zero."""
-        return [(*case.guards, atom(case.value.poly, Relation.EQ)) for case in self.listed(value)]
 
     def power(self, base: Meaning, exponent: Fraction) -> Meaning:
         if exponent.denominator > 1:

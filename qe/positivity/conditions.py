@@ -8,11 +8,10 @@ and the h_i are forms of degree d. Where r >= 0 and no h_i is negative, p >= 0, 
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterator, Sequence
+from collections.abc import Collection
 from math import comb
 
 from qe.exact.ring import Poly
-from qe.formula.syntax import Atom, Formula, Relation
 from qe.positivity.identity import Identity, Positive
 from qe.positivity.prove import nowhere_negative
 
@@ -21,15 +20,6 @@ MOST_TERMS, MOST_POWERS = 200, 6
 
 Condition = tuple[Poly, int, bool]
 """A form and a positive number that it is not smaller than; whether it is that number."""
-
-
-def conditions_of(parts: Sequence[Formula]) -> Iterator[tuple[Poly, Condition]]:
-    """The conditions that say so of a form that is not linear, behind the polynomials that they compare."""
-    for part in parts:
-        if isinstance(part, Atom) and part.relation in (Relation.EQ, Relation.GE, Relation.GT):
-            form = part.poly - (least := int(part.poly.evaluate((0,) * part.poly.ring.size)))
-            if least < 0 and form.total_degree > 1 and len({sum(e) for e, _ in form.terms()}) == 1:
-                yield part.poly, (form, -least, part.relation is Relation.EQ)
 
 
 def positive_under(poly: Poly, conditions: Collection[Condition], orthant: frozenset[int]) -> Positive | None:

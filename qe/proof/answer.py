@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from enum import Enum
-from html import escape
 from pathlib import Path
 from typing import Any
 
@@ -181,6 +180,8 @@ class Answer:
 
     def _repr_html_(self) -> str:
         """The formula with its guarantee and time, for notebooks."""
+        from html import escape  # which is seldom needed
+
         seconds = self.log.seconds
         notes = [self.guarantee.value, *([] if seconds is None else [f"{seconds:.3f} s"])]
         if self.witness:

@@ -178,8 +178,8 @@ def matches(families: tuple[str, ...], variables: Sequence[str], body: Formula) 
         return
     index, parameters = body.ring.index, len(set(body.free) - set(variables))
     degree = max(part.poly.degree(index[v]) for part in parts for v in variables)
-    if len(parts) == degree == 1:
-        return  # no theorem is about that: none has to be read
+    if len(parts) == degree == 1 or (len(variables) == 1 and not parameters):
+        return  # no theorem is about the one, and the other is decided as quickly: none has to be read
     relations = tuple(sorted(undirected(part.relation.value) for part in parts))
     candidates = patterns(families, parameters, len(variables), degree, relations)
     orders = (permutations(variables) if len(variables) < 3 else [tuple(variables)]) if candidates else ()

@@ -7,6 +7,7 @@ number, p > 0 holds. The identities are found in ``qe.positivity``.
 
 from __future__ import annotations
 
+from collections.abc import Iterator, Sequence
 from typing import TYPE_CHECKING
 
 from qe.exact.ring import Poly, format_poly
@@ -27,13 +28,21 @@ MOST_POLYNOMIALS, FEWEST_VARIABLES = 12, 3
 
 def signs_before_substitution(variables: tuple[str, ...], body: Formula, context: BlockContext) -> Found | None:
     """The same where an equation makes polynomials homogeneous, which is hidden where it is solved for a variable."""
-    from qe.positivity.conditions import conditions_of
-
     return (
         known_signs(variables, body, context)
         if any(is_equation for _, (*_, is_equation) in conditions_of(conjuncts(body)))
         else None
     )
+
+
+def conditions_of(parts: Sequence[Formula]) -> Iterator[tuple[Poly, tuple[Poly, int, bool]]]:
+    """Forms that are not linear and not smaller than a positive number, that number, and whether they are equal to it,
+    behind the polynomials that a condition compares."""
+    for part in parts:
+        if isinstance(part, Atom) and part.relation in (Relation.EQ, Relation.GE, Relation.GT):
+            form = part.poly - (least := int(part.poly.evaluate((0,) * part.poly.ring.size)))
+            if least < 0 and form.total_degree > 1 and len({sum(e) for e, _ in form.terms()}) == 1:
+                yield part.poly, (form, -least, part.relation is Relation.EQ)
 
 
 def known_signs(variables: tuple[str, ...], body: Formula, context: BlockContext) -> Found | None:
@@ -43,7 +52,7 @@ def known_signs(variables: tuple[str, ...], body: Formula, context: BlockContext
     polys = [p for p in polynomials(body) if len(p.variables) >= FEWEST_VARIABLES and p.total_degree > 1]
     if not polys or len(polys) > MOST_POLYNOMIALS:
         return None
-    from qe.positivity.conditions import conditions_of, positive_under  # what finds identities is seldom needed
+    from qe.positivity.conditions import positive_under  # what finds identities is seldom needed
     from qe.positivity.cone import bounds_of, positive_on_cone
     from qe.positivity.nearby import positive_beyond
     from qe.positivity.prove import nowhere_negative

@@ -16,11 +16,17 @@ NAMES = [s.Name(name, 0) for name in "xyz"]
 NUMBERS = [s.Number(value) for value in (0, 1, -1, 7, Fraction(-2, 3), Fraction(1, 6), 10**30)]
 
 
+def total(parts: list[s.Term]) -> s.Term:
+    """The sum of what is collected of the parts and of the others."""
+    terms: collected.Coefficients = {}
+    return collected.joined(terms, [part for part in parts if not collected.add(terms, part)])
+
+
 def both(parts: list[tuple[s.Term, s.Term]]) -> st.SearchStrategy[tuple[s.Term, s.Term]]:
     """What is collected of the parts, and a tree of them."""
     read, trees = [part[0] for part in parts], [part[1] for part in parts]
     ways: list[tuple[s.Term | None, s.Term]] = [
-        (collected.total(read), s.Sum(trees) if len(trees) > 1 else trees[0]),
+        (total(read), s.Sum(trees) if len(trees) > 1 else trees[0]),
         (collected.negative(read[0]), s.Minus(trees[0])),
         (collected.product(read), product(trees)),
         (collected.quotient(read[0], s.Number(-6)), s.Quotient(trees[0], s.Number(-6), 0)),
@@ -68,7 +74,7 @@ def test_what_could_become_large_stays_a_tree() -> None:
     x = NAMES[0]
     long = s.Polynomial({(f"x{k}",): 1 for k in range(collected.SHORT + 1)})
     large = s.Number(1 << 3000)
-    assert collected.total([long, x]) == s.Sum([s.Polynomial({("x",): 1}), long])
+    assert total([long, x]) == s.Sum([s.Polynomial({("x",): 1}), long])
     assert collected.product([long, x]) is None and collected.negative(long) is None
     assert collected.product([x] * 65) is None and collected.product([large, x]) is None
     assert collected.power(x, s.Number(Fraction(1, 2))) is None and collected.power(x, s.Number(0)) is None
@@ -87,6 +93,6 @@ def test_what_could_become_large_stays_a_tree() -> None:
 
 def test_terms_that_cancel_are_no_terms() -> None:
     x = NAMES[0]
-    assert collected.total([x, s.Number(2), s.Polynomial({("x",): -1})]) == s.Number(2)
+    assert total([x, s.Number(2), s.Polynomial({("x",): -1})]) == s.Number(2)
     assert collected.product([x, s.Number(0)]) == s.Number(0)
     assert isinstance(lower_term(s.Sum([x, s.Polynomial({("x",): -1})]), fail), Value)

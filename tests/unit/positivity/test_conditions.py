@@ -14,10 +14,10 @@ from qe.formula.traverse import conjuncts
 from qe.io.text import read, read_polynomial
 from qe.options import Budget
 from qe.positivity import conditions
-from qe.positivity.conditions import conditions_of, positive_under
+from qe.positivity.conditions import positive_under
 from qe.positivity.identity import Positive
 from qe.rules.block_context import BlockContext
-from qe.rules.squares import known_signs
+from qe.rules.squares import conditions_of, known_signs
 from qe.rules.step import StepKind
 from tests.certificates.test_steps_by_hand import accepted
 from tests.tables import each
