@@ -22,8 +22,9 @@ from qe.io import parser as p
 from qe.io import surface as s
 from qe.io.lowering import lower
 from qe.io.names import Renaming
-from qe.io.parser import FORMULA, TERM, Infix, Parser, Prefix, Waiting, counted, parsed
+from qe.io.parser import FORMULA, TERM, Infix, Parser, Prefix, Waiting, parsed
 from qe.io.text_errors import Failing
+from qe.io.text_quantifiers import quantified
 from qe.io.tokens import SIGNS, Token, kinds, matches
 
 _SESSION = re.compile(
@@ -110,20 +111,17 @@ class _Parser(Parser):
     def lexed(self, text: str) -> Iterator[Token]:
         at = 0
         while match := _QUANTIFIER.match(text, at):
-            yield Token("QUANTIFIER", f"{match['kind'].replace(' ', '')} {match['name']}", match.start("kind"))
+            kind = match["kind"]
+            yield Token("QUANTIFIER", f"{kind[0]} {kind[1:]} {match['name']}", match.start("kind"))
             at = match.end()
         for kind, value, start in matches(_TOKEN, text, at):
             yield Token(_KINDS.get(value, kind), value, start)
 
     def quantifier(self) -> None:
         token = self.advance()
-        kind, name = token.text.split()
-        if kind not in ("E", "A"):
-            count = counted(kind[1:], token.at)
-            make = lambda body: s.Quantity(kind[0], count, name, body, token.at)  # noqa: E731
-            self.stack.append(Waiting(p.BODY, FORMULA, FORMULA, make))
-            return
-        self.stack.append(Waiting(p.BODY, FORMULA, FORMULA, lambda body: s.Quantification(kind == "A", [name], body)))
+        *kind, name = token.text.split()
+        mark = token._replace(text=" ".join(kind))
+        self.stack.append(Waiting(p.BODY, FORMULA, FORMULA, lambda body: quantified(mark, [name], None, body)))
 
     def term_in_brackets(self) -> None:
         self.advance()

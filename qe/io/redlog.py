@@ -17,12 +17,12 @@ from qe.exact.ring import Poly
 from qe.formula.build import conj
 from qe.formula.notation import Notation
 from qe.formula.syntax import Formula, Relation
-from qe.io import surface as s
 from qe.io.lowering import lower
 from qe.io.names import Renaming, check_name
-from qe.io.parser import FORMULA, INFIX, NOT, PREFIX, REPLIED, Parser, Prefix, parsed
+from qe.io.parser import FORMULA, INFIX, NOT, PREFIX, REPLIED, Prefix, parsed
 from qe.io.substitution import over_one_ring
 from qe.io.text_errors import Failing, SyntaxFailure
+from qe.io.text_quantifiers import QuantifiedParser
 from qe.io.tokens import END, REDLOG, SIGNS, Token, kinds, matches
 
 _TOKEN = re.compile(
@@ -85,8 +85,8 @@ def _unescaped(word: str, at: int) -> str:
         raise SyntaxFailure(str(error), at) from None
 
 
-class _Parser(Parser):
-    """What only this format has: quantifiers as calls, an assignment in front, and a sign at the end."""
+class _Parser(QuantifiedParser):
+    """What only this format has: quantifiers as calls alone, an assignment in front, and a sign at the end."""
 
     def lexed(self, text: str) -> Iterator[Token]:
         assignment = _ASSIGNMENT.match(text)
@@ -130,15 +130,10 @@ class _Parser(Parser):
         self.advance()
 
     def quantifier(self) -> None:
-        universal = self.advance().text == "all"
-        self.take("OPEN")
-        names = [self.take("NAME", "BEGIN").text]
-        if names == ["{"]:
-            names = [self.take("NAME").text]
-            while self.take("COMMA", "END").kind == "COMMA":
-                names.append(self.take("NAME").text)
-        self.take("COMMA")
-        self.open(FORMULA, "CLOSE", lambda parts: s.Quantification(universal, names, parts[0]))
+        token = self.advance()
+        if self.token.kind != "OPEN":
+            raise self.unexpected(("OPEN",))
+        self.quantified_call(token)
 
     infix = {**INFIX, **REPLIED}  # noqa: RUF012
     prefix = {**PREFIX, "QUANTIFIER": Prefix(FORMULA, NOT, quantifier)}  # noqa: RUF012

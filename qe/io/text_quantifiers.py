@@ -51,7 +51,7 @@ class QuantifiedParser(Parser):
         def make(body: s.Node) -> s.Node:
             body = _under(True, conditions, body)
             for header in reversed(headers):
-                body = _quantified(*header, body)
+                body = quantified(*header, body)
             return body
 
         if self.token.kind == "CLOSE":
@@ -239,7 +239,7 @@ class QuantifiedParser(Parser):
         return all_within(members, within, at)
 
 
-def _quantified(quantifier: Token, names: list[str], within: Within | None, body: s.Node) -> s.Node:
+def quantified(quantifier: Token, names: list[str], within: Within | None, body: s.Node) -> s.Node:
     """A quantifier over names, which may be bounded by a set."""
     if quantifier.text.partition(" ")[0] in (*s.QUANTITIES, "M"):
         return _quantity(quantifier, names, within, body)
