@@ -51,17 +51,18 @@ def measure(region: Region) -> Expression:
 
 def _measured(piece: Piece) -> Expression:
     ring = piece.table.factors[0][0].ring
-    symbols = [sympy.Symbol(f"x{k}", real=True) for k in range(ring.size)]
-    first = piece.ranges[0]
-    ends = [number_to_sympy(end.value) for end in _both(first) if end.value is not None]
+    x, *others = symbols = [sympy.Symbol(f"x{k}", real=True) for k in range(ring.size)]
+    ends = [_end(end, symbols)[0] for end in _both(piece.ranges[0])]
     if len(piece.ranges) == 1:
         return ends[1] - ends[0]
-    if len(piece.ranges) == 2:
-        lower, upper = (_parts(end, symbols) for end in (piece.ranges[1].lower, piece.ranges[1].upper))
-        width = _sum(upper, lower, -1)
-    else:
-        width = _slice(piece, symbols)
-    return sum((_integral(c, q, symbols[0], ends) for q, c in width.items()), sympy.S.Zero)
+    inner = others[0]
+    if len(piece.ranges) == 3:
+        if (area := _ellipse(piece, symbols)) is not None:
+            return _integral(area, _ONE, x, ends)
+        low, high = (_polynomial(end, symbols) for end in _both(piece.ranges[2]))
+        inner = sympy.integrate(sympy.Poly(high - low, inner).as_expr(), inner)
+    width = _between(inner, others[0], *(_end(end, symbols) for end in _both(piece.ranges[1])))
+    return sum((_integral(c, q, x, ends) for q, c in width.items()), sympy.S.Zero)
 
 
 def _both(r: Range) -> tuple[RootFunction, RootFunction]:
@@ -70,8 +71,8 @@ def _both(r: Range) -> tuple[RootFunction, RootFunction]:
     return r.lower, r.upper
 
 
-def _slice(piece: Piece, symbols: list[Expression]) -> Parts:
-    """The area over a value of the first variable."""
+def _ellipse(piece: Piece, symbols: list[Expression]) -> Expression | None:
+    """The area over a value of the first variable between the two sheets of an ellipsoid; None of any other slice."""
     (y0, y1), (z0, z1) = (_both(r) for r in piece.ranges[1:])
     if z0.poly == z1.poly and z0.poly.degree(2) == 2 and y0.poly == y1.poly and y0.poly != z0.poly:
         c = z0.poly.coefficients(2)
@@ -80,32 +81,29 @@ def _slice(piece: Piece, symbols: list[Expression]) -> Parts:
             k, j, i = (_expression(part, symbols) for part in discriminant.coefficients(1))
             if i.is_number and i.is_negative:
                 lead = abs(_expression(c[2], symbols))
-                return {_ONE: sympy.expand(sympy.pi * (j**2 - 4 * i * k) / (8 * sympy.sqrt(-i) ** 3) / lead)}
-    height = _flat(z1, symbols) - _flat(z0, symbols)
-    inner = sympy.Poly(sympy.integrate(sympy.Poly(height, symbols[1]).as_expr(), symbols[1]), symbols[1])
-    return _sum(_composed(inner, _parts(y1, symbols)), _composed(inner, _parts(y0, symbols)), -1)
+                return sympy.expand(sympy.pi * (j**2 - 4 * i * k) / (8 * sympy.sqrt(-i) ** 3) / lead)
+    return None
 
 
-def _flat(root: RootFunction | None, symbols: list[Expression]) -> Expression:
+def _polynomial(root: RootFunction, symbols: list[Expression]) -> Expression:
     """An end of the third variable that is a polynomial in the others."""
-    parts = _parts(root, symbols)
-    if set(parts) != {_ONE} or not parts[_ONE].is_polynomial(*symbols):
+    term, root_part, _ = _end(root, symbols)
+    if root_part != 0 or not term.is_polynomial(*symbols):
         raise Unable("no closed form was found: a curved surface that is no ellipsoid")
-    return parts[_ONE]
+    return term
 
 
-def _parts(root: RootFunction | None, symbols: list[Expression]) -> Parts:
-    """An end as a sum of square roots."""
-    assert root is not None
+def _end(root: RootFunction, symbols: list[Expression]) -> tuple[Expression, Expression, Expression]:
+    """Rational functions a and b of the first variable, and q, with a + b sqrt(q) for an end."""
     if root.value is not None:
-        return {_ONE: number_to_sympy(root.value)}
+        return number_to_sympy(root.value), sympy.S.Zero, _ONE
     c = [_expression(part, symbols) for part in root.poly.coefficients(root.poly.level)]
     if len(c) == 2:
-        return {_ONE: sympy.together(-c[0] / c[1])}
+        return sympy.together(-c[0] / c[1]), sympy.S.Zero, _ONE
     if len(c) == 3 and c[2].is_number:
-        inside = _without_squares(sympy.expand(c[1] ** 2 - 4 * c[2] * c[0]), symbols[0])
         sign = -1 if (root.k == 1) == c[2].is_positive else 1
-        return _sum({_ONE: -c[1] / (2 * c[2])}, {inside: sign / (2 * c[2])}, 1)
+        inside = _without_squares(sympy.expand(c[1] ** 2 - 4 * c[2] * c[0]), symbols[0])
+        return -c[1] / (2 * c[2]), sign / (2 * c[2]), inside
     raise Unable("no closed form was found: an end of degree above 2")
 
 
@@ -118,28 +116,15 @@ def _without_squares(q: Expression, x: Expression) -> Expression:
     return q
 
 
-def _composed(poly: Any, at: Parts) -> Parts:
-    """A polynomial of the second variable at an end (Horner)."""
-    value: Parts = {}
-    for c in poly.all_coeffs():
-        value = _sum(_product(value, at), {_ONE: c}, 1)
-    return value
-
-
-def _sum(left: Parts, right: Parts, sign: int) -> Parts:
-    total = dict(left)
-    for q, c in right.items():
-        total[q] = total.get(q, 0) + sign * c
-    return {q: e for q, c in total.items() if (e := sympy.together(sympy.expand(c))) != 0}
-
-
-def _product(left: Parts, right: Parts) -> Parts:
+def _between(inner: Expression, y: Expression, *ends: tuple[Expression, Expression, Expression]) -> Parts:
+    """The difference of the values of a polynomial of the second variable at two ends, a + b sqrt(q) each."""
     total: dict[Expression, Expression] = {}
-    for p, a in left.items():
-        for q, b in right.items():
-            under, c = (_ONE, a * b * p) if p == q else (sympy.expand(p * q), a * b)
-            total[under] = total.get(under, 0) + c
-    return {q: sympy.together(sympy.expand(c)) for q, c in total.items()}
+    for sign, (a, b, q) in zip((-1, 1), ends, strict=True):
+        root = sympy.Dummy()
+        for (k,), c in sympy.Poly(inner.subs(y, a + b * root), root).terms():
+            under = q if k % 2 else _ONE
+            total[under] = total.get(under, 0) + sign * c * q ** (k // 2)
+    return {q: e for q, c in total.items() if (e := sympy.together(sympy.expand(c))) != 0}
 
 
 def _integral(c: Expression, q: Expression, x: Expression, ends: list[Expression]) -> Expression:
