@@ -11,7 +11,10 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, replace
 from functools import partial
-from typing import TYPE_CHECKING, Any
+from typing import Any
+
+import sympy
+from sympy.logic.boolalg import Boolean
 
 import qe.api.decide as api_decide
 import qe.api.eliminate as api
@@ -27,10 +30,6 @@ from qe.io.substitution import over_one_ring
 from qe.io.sympy import Exists, ForAll, expression_from, from_sympy, to_sympy
 from qe.optimization.values import new_name
 from qe.processes.limits import Limits
-
-if TYPE_CHECKING:
-    import sympy
-    from sympy.logic.boolalg import Boolean
 
 __all__ = ["function_range", "is_true_for_all", "maximum", "minimum", "reduce_inequalities", "solve_region"]
 
@@ -52,7 +51,12 @@ def reduce_inequalities(
     free = question.free
     wanted = [name for name in _names(symbols) if name in free] or free
     found = question.solved(wanted, timeout)
-    return _quantifier_free(question, timeout) if found is None else found
+    if found is not None:
+        return found
+    answer = api.eliminate(question.formula, timeout=timeout)
+    if answer.formula is None:
+        raise Unable(answer.reason or "no answer")
+    return to_sympy(answer.formula, symbols=question.symbols)
 
 
 def solve_region(condition: Condition, symbol: Any = None, *, timeout: float | None = None) -> sympy.Set:
@@ -102,8 +106,6 @@ def maximum(
 
 def is_true_for_all(condition: Condition, *, timeout: float | None = None) -> bool:
     """Whether the condition holds for all real values of its symbols that fit their assumptions."""
-    import sympy
-
     question, symbols = _Question.of(condition, timeout), _symbols_of(condition)
     parts = question.parts
     whole = parts[0] if len(parts) == 1 else sympy.And(*parts, evaluate=False)
@@ -113,8 +115,6 @@ def is_true_for_all(condition: Condition, *, timeout: float | None = None) -> bo
 
 def _posed(function: Any, symbols: Any, condition: Condition) -> tuple[Any, list[Any], list[Any]]:
     """The expression, the symbols over which it ranges, and the conditions."""
-    import sympy
-
     function = expression_from(function)
     names = _listed(symbols) if symbols is not None else sorted(function.free_symbols, key=str)
     if isinstance(condition, sympy.Set):
@@ -126,8 +126,6 @@ def _posed(function: Any, symbols: Any, condition: Condition) -> tuple[Any, list
 
 def _values(function: Any, names: list[Any], parts: list[Any], timeout: float | None) -> tuple[_Question, str]:
     """The question which values are taken, and the variable for them."""
-    import sympy
-
     value = new_name(symbol.name for symbol in function.free_symbols)
     equation = sympy.Eq(sympy.Symbol(value, real=True), function, evaluate=False)
     question = _Question.of([equation, *parts], timeout)
@@ -135,8 +133,6 @@ def _values(function: Any, names: list[Any], parts: list[Any], timeout: float | 
 
 
 def _bound(way: str, function: Any, symbols: Any, condition: Condition, timeout: float | None) -> Any:
-    import sympy
-
     function, names, parts = _posed(function, symbols, condition)
     known, given = _names(names), _symbols_of([function, *parts])
     if parameters := [name for name in given if name not in known]:
@@ -182,8 +178,6 @@ class _Question:
 
     @staticmethod
     def _of(given: Condition) -> _Question:
-        import sympy
-
         parts = [sympy.sympify(part) if isinstance(part, bool) else part for part in _conditions(given)]
         return _Question(conj(over_one_ring(*map(from_sympy, parts))), _symbols_of(given), tuple(parts))
 
@@ -194,8 +188,6 @@ class _Question:
 
     def solved(self, wanted: list[str], timeout: float | None) -> Any:
         """The cases, solved for these variables; None where SymPy has no term for an end."""
-        import sympy
-
         terms = {sympy.Symbol(name): symbol for name, symbol in self.symbols.items()}
         solutions = api_solve.solve(self.formula, wanted, timeout=timeout)
         try:
@@ -204,17 +196,8 @@ class _Question:
             return None
 
 
-def _quantifier_free(question: _Question, timeout: float | None) -> Any:
-    answer = api.eliminate(question.formula, timeout=timeout)
-    if answer.formula is None:
-        raise Unable(answer.reason or "no answer")
-    return to_sympy(answer.formula, symbols=question.symbols)
-
-
 def _set_of(question: _Question, name: str, timeout: float | None) -> Any:
     """The solutions of a condition in one variable."""
-    import sympy
-
     try:
         found = api_solve.solve(question.formula, [name], timeout=timeout).to_sympy()
     except InputError:

@@ -236,12 +236,3 @@ def algebraic(value: Coordinate, what: str) -> RealAlgebraic:
     """A real algebraic number: ``RealAlgebraic``, an element of a number field, a SymPy or a rational number."""
     number = number_of(value, what, "a real algebraic number")
     return number if isinstance(number, RealAlgebraic) else RealAlgebraic.rational(number)
-
-
-__all__ = [
-    "ComprehensiveGroebnerSystem",
-    "Order",
-    "RealRootClassification",
-    "comprehensive_groebner",
-    "real_root_classification",
-]

@@ -66,11 +66,14 @@ def read_posed(given: AnyFormula, format: str = "text", total_division: bool = F
             raise InputError("formula: at least one condition expected, an empty list found")
         parts, known = zip(*(read_posed(part, format, total_division) for part in given), strict=True)
         return conj(over_one_ring(*parts)), conj(over_one_ring(*known))
+    if isinstance(held := getattr(given, "formula", None), Formula):  # of a statement, or a region
+        return held, TRUE
     from qe.io.solver_doors import from_solver
-    from qe.io.sympy import posed_from_sympy
 
     if (formula := from_solver(given)) is not None:
         return formula, TRUE
+    from qe.io.sympy import posed_from_sympy
+
     return posed_from_sympy(given)
 
 
@@ -127,15 +130,11 @@ def read_block(given: AnyFormula, format: str = "text", total_division: bool = F
     formula, known = read_posed(given, format, total_division)
     if not isinstance(formula, Constant):
         return formula, known
-    block = None
+    block = getattr(given, "block", None)
     if isinstance(given, str) and formats.checked(format) is formats.Format.TEXT:
         from qe.io.text import outermost
 
         block = outermost(given)
-    elif not isinstance(given, str | Formula | Answer):
-        from qe.io.sympy import Wrapped
-
-        block = given.block if isinstance(given, Wrapped) else None
     if block is None:
         return formula, known
     universal, names = block
@@ -231,9 +230,12 @@ def read_polynomial(given: AnyFormula, what: str, *, known: Container[str] = ())
 
             return read(given, known=known)
         from qe.io.expressions import Expression
-        from qe.io.sympy import term_from_sympy
 
-        value = (given if isinstance(given, Expression) else Expression(term_from_sympy(given))).polynomial()
+        if not isinstance(given, Expression):
+            from qe.io.sympy import term_from_sympy
+
+            given = Expression(term_from_sympy(given))
+        value = given.polynomial()
         return value.poly, Fraction(1, value.den)
     except InputError as error:
         raise InputError(f"{what}: a polynomial expected: {error}") from None

@@ -259,7 +259,7 @@ def prompt() -> int:
     """
     from qe.cli import prompt as cli_prompt
 
-    return cli_prompt.run(None if _is_asked() else cli_prompt.plain_reader())
+    return cli_prompt.run(None if _is_asked() else lambda shown: input())  # through a pipe nothing is asked
 
 
 def answered(

@@ -46,7 +46,7 @@ _COUNT = re.compile(r"\s*([0-9]{1,6})\s*:")
 _NUMBER = re.compile(r"-?[0-9]{1,9}(?:\.[0-9]{1,9})?")
 _LAST = re.compile(r"(`(?:[^`\\]|\\.)*`)|%")
 OLDER = {word: door.name for door in DOORS.values() for word in (*door.words, *door.also)}
-COMMANDS = (*DOORS, *OLDER, "help", "plot", "quit", "why")
+COMMANDS = (*DOORS, *OLDER, "help", "plot", "why")
 SETTINGS = {
     name: setting for name, (_, setting) in settings_in(Elimination).items() if name not in ELSEWHERE - {"check"}
 }
@@ -59,11 +59,6 @@ class Session:
     settings: dict[str, Any] = field(default_factory=lambda: {"timeout": 60.0})
     last: Any = None
     text: str = ""
-    commands: dict[str, Callable[[str], str]] = field(default_factory=dict)
-
-    def __post_init__(self) -> None:
-        known = {name: getattr(self, f"_{OLDER.get(name, name)}") for name in COMMANDS if name != "quit"}
-        self.commands.update(known)
 
     def reply(self, line: str) -> str:
         """What is printed for a line: an answer, or one line that says what is wrong."""
@@ -87,14 +82,15 @@ class Session:
         name, _, rest = line[1:].partition(" ")
         if (setting := name.replace("-", "_")) in SETTINGS:
             return self._set(setting, rest.strip())
-        if name not in self.commands:
+        if name not in COMMANDS:
             from difflib import get_close_matches
 
-            near = get_close_matches(name, (*COMMANDS, *SETTINGS), 1)
+            near = get_close_matches(name, (*COMMANDS, "quit", *SETTINGS), 1)
             raise InputError(
                 f"no such command: :{name}; " + (f"did you mean :{near[0]}?" if near else ":help lists them")
             )
-        return self.commands[name](self._meant(rest.strip()))
+        command: Ask = getattr(self, f"_{OLDER.get(name, name)}")
+        return command(self._meant(rest.strip()))
 
     def _meant(self, text: str) -> str:
         """The text with the last answer in the place of ``%``."""
@@ -276,11 +272,6 @@ def _reader() -> Ask:
     depth = ColorDepth.DEPTH_1_BIT if os.environ.get("NO_COLOR") else None
     prompt: PromptSession[str] = PromptSession(history=history, color_depth=depth)
     return lambda shown: prompt.prompt(shown)
-
-
-def plain_reader() -> Ask:
-    """Lines as they come, for pipes: nothing is asked."""
-    return lambda shown: input()
 
 
 def _history() -> Path | None:

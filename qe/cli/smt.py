@@ -93,7 +93,8 @@ class Solver(Checks):
             start = 0
             for end in ends.found(text):
                 self.execute(text[start:end], source, line, column)
-                line, column = _behind(text[start:end], line, column)
+                lines = text.count("\n", start, end)
+                line, column = line + lines, end - text.rfind("\n", 0, end) - 1 if lines else column + end - start
                 start = end
                 if self.done:
                     return
@@ -386,12 +387,6 @@ class Solver(Checks):
 def command_name(command: Expression) -> str:
     """The first word of a command."""
     return command[0] if not isinstance(command, str) and command and isinstance(command[0], str) else ""
-
-
-def _behind(text: str, line: int, column: int) -> tuple[int, int]:
-    """Line and column (from 0) behind a text that starts at these."""
-    count = text.count("\n")
-    return line + count, len(text) - text.rfind("\n") - 1 if count else column + len(text)
 
 
 def _word(items: Sequence[Expression], k: int) -> str:

@@ -196,10 +196,12 @@ def _formula(given: object) -> Formula:
 
         return read(given)
     from qe.io.solver_doors import from_solver
+
+    if (formula := from_solver(given)) is not None:
+        return formula
     from qe.io.sympy import from_sympy
 
-    formula = from_solver(given)
-    return from_sympy(given) if formula is None else formula
+    return from_sympy(given)
 
 
 def substituted(formula: Formula, values: Mapping[Any, object]) -> Formula:

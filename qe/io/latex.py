@@ -45,7 +45,10 @@ def write(formula: Formula) -> str:
     text = formula.written(_NOTATION)
     if len(text) <= WIDTH:
         return text
-    prefix, body = _prefix(formula)
+    prefix, body = "", formula
+    while isinstance(body, Exists | ForAll):
+        prefix += _quantifier(isinstance(body, ForAll), body.variables)
+        body = body.body
     if not isinstance(body, And | Or):
         return text
     level, operator = (Level.AND, _NOTATION.conjunction) if isinstance(body, And) else (Level.OR, _NOTATION.disjunction)
@@ -53,14 +56,6 @@ def write(formula: Formula) -> str:
         arg.written(_NOTATION, level, last=False) for arg in (ranges(body.args) if level is Level.AND else body.args)
     )
     return f"{prefix}\\begin{{array}}{{rl}}\n& {joined}\n\\end{{array}}"
-
-
-def _prefix(formula: Formula) -> tuple[str, Formula]:
-    text = ""
-    while isinstance(formula, Exists | ForAll):
-        text += _quantifier(isinstance(formula, ForAll), formula.variables)
-        formula = formula.body
-    return text, formula
 
 
 def name(variable: str) -> str:

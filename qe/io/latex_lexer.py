@@ -54,7 +54,7 @@ _SIGNS = {
     ":": "DOT",
     "|": "BAR",
 }
-_NEGATED = {"=": "/=", "<": ">=", ">": "<=", "\\le": ">", "\\leq": ">", "\\ge": "<", "\\geq": "<"}
+_NEGATED = {"=": "/=", "<": ">=", ">": "<=", "\\le": ">", "\\leq": ">", "\\ge": "<", "\\geq": "<", "\\in": "∉"}
 _SPACES = frozenset((",", ";", ":", "!", " ", "quad", "qquad", "thinspace"))
 _SKIPPED = frozenset(("left", "right", "big", "Big", "bigl", "bigr", "Bigl", "Bigr", "displaystyle", "limits", "\\"))
 _FONTS = frozenset(("mathrm", "mathit", "mathbf", "operatorname", "textrm", "textit"))
@@ -233,10 +233,8 @@ class _Source:
         """``\\not`` and the relation behind it; returns the offset behind both."""
         relation = _NOT.match(self.text, after)
         sign = "" if relation is None else relation[1]
-        if sign == "\\in":
-            yield from self.put("NOTIN", "∉", at)
-        elif sign in _NEGATED:
-            yield from self.put("RELATION", _NEGATED[sign], at)
+        if sign in _NEGATED:
+            yield from self.put("NOTIN" if sign == "\\in" else "RELATION", _NEGATED[sign], at)
         elif sign == "\\exists":
             yield from self.put("NOT", "not", at)
             yield from self.put("QUANTIFIER", "ex", at)

@@ -123,13 +123,9 @@ class _Parser(Parser):
         mark = token._replace(text=" ".join(kind))
         self.stack.append(Waiting(p.BODY, FORMULA, FORMULA, lambda body: quantified(mark, [name], None, body)))
 
-    def term_in_brackets(self) -> None:
-        self.advance()
-        self.open(TERM, "CLOSE")
-
-    def formula_in_brackets(self) -> None:
-        self.advance()
-        self.open(FORMULA, "END")
+    def bracket(self) -> None:
+        """Round brackets hold terms, square ones formulas."""
+        self.open(*((TERM, "CLOSE") if self.advance().kind == "OPEN" else (FORMULA, "END")))
 
     calls: ClassVar = {"NAME": ()}
     infix = {  # noqa: RUF012
@@ -141,8 +137,8 @@ class _Parser(Parser):
     prefix = {  # noqa: RUF012
         **p.PREFIX,
         "QUANTIFIER": Prefix(FORMULA, p.BODY, quantifier),
-        "OPEN": Prefix(TERM, p.PRIMARY, term_in_brackets),
-        "BEGIN": Prefix(FORMULA, p.NOT, formula_in_brackets),
+        "OPEN": Prefix(TERM, p.PRIMARY, bracket),
+        "BEGIN": Prefix(FORMULA, p.NOT, bracket),
     }
 
 
@@ -155,12 +151,9 @@ def write(formula: Formula) -> str:
     quantifiers = "".join(
         f"({'E' if kind is Quantifier.EXISTS else 'A'} {names[name]})" for kind, block in prefix for name in block
     )
-    listing = ",".join(names[name] for name in order) or _UNUSED
+    listing = ",".join(names[name] for name in order) or "x"
     body = f"{quantifiers}[{matrix.written(_notation(names))}]"
     return f"[]\n({listing})\n{max(len(free), 0 if order else 1)}\n{body}.\nfinish\n"
-
-
-_UNUSED = "x"
 
 
 def _allowed(name: str) -> bool:

@@ -1,4 +1,4 @@
-"""SymPy Booleans in and out. SymPy is imported when a function of this module is called, never before.
+"""SymPy Booleans in and out.
 
 Read: relations, ``And Or Not Implies Equivalent Xor ITE``, ``Contains`` in sets of reals, and terms made of algebraic
 numbers, quotients, rational powers, ``Abs``, ``Min``, ``Max``, ``sign`` and ``Piecewise``. A SymPy ``Float`` is read as
@@ -15,6 +15,8 @@ from dataclasses import dataclass
 from fractions import Fraction
 from typing import Any
 
+import sympy as sp
+
 from qe import arguments
 from qe.errors import InputError, NoTruthValue
 from qe.exact.algebraic import real_roots
@@ -26,7 +28,7 @@ from qe.io import surface as s
 from qe.io.lowering import lower, lower_term
 from qe.io.names import bound_names
 from qe.io.substitution import over_one_ring
-from qe.io.sympy_reader import Reader, number_to_sympy, numbers_in, shown, signs, symbol_of
+from qe.io.sympy_reader import boolean, number_to_sympy, numbers_in, real, shown, signs, symbol_of
 
 _FUNCTIONS = {"abs": "Abs", "sign": "sign", "sqrt": "sqrt", "min": "Min", "max": "Max"}
 
@@ -79,12 +81,10 @@ def ForAll(variables: object, body: object) -> Wrapped:
 
 
 def _quantified(universal: bool, variables: Any, body: object) -> Wrapped:
-    import sympy
-
     if isinstance(variables, set | frozenset):  # the order within a block means nothing
         variables = sorted(variables, key=str)
     listed = variables if isinstance(variables, Iterable) and not isinstance(variables, str) else (variables,)
-    given = _assumptions(symbol for symbol in listed if isinstance(symbol, sympy.Symbol))
+    given = _assumptions(symbol for symbol in listed if isinstance(symbol, sp.Symbol))
     names = bound_names(variables)
     raw, assumed = _parts(body)
     assumed = {**assumed, **given}
@@ -134,8 +134,6 @@ def _parts(expression: object) -> tuple[Formula, Mapping[str, Formula]]:
         return expression.raw, expression.assumed
     if isinstance(held := getattr(expression, "formula", None), Formula):  # an answer, or a region
         return held, {}
-    import sympy
-
     if isinstance(expression, str):
         raise InputError("a SymPy Boolean expected, text found")
     if isinstance(expression, bool):
@@ -144,7 +142,7 @@ def _parts(expression: object) -> tuple[Formula, Mapping[str, Formula]]:
     whole = _basic(expression, "formula: text, a Formula or a SymPy Boolean")
     symbols = sorted(getattr(whole, "free_symbols", ()), key=str)
     try:
-        node = Reader(sympy).boolean(whole)
+        node = boolean(whole)
         names = dict.fromkeys((*numbers_in(whole), *(symbol.name for symbol in symbols)))
         return lower(node, _failing(whole), names=names), _assumptions(symbols)
     except RecursionError:
@@ -153,18 +151,14 @@ def _parts(expression: object) -> tuple[Formula, Mapping[str, Formula]]:
 
 def term_from_sympy(expression: object) -> s.Term:
     """The surface tree of a SymPy expression."""
-    import sympy
-
     try:
-        return Reader(sympy).real(_basic(expression, "a SymPy expression"))
+        return real(_basic(expression, "a SymPy expression"))
     except RecursionError:
         raise InputError("the expression is nested too deeply") from None
 
 
 def term_to_sympy(term: s.Term) -> Any:
     """The SymPy expression of a surface tree. Raises ``InputError`` for parts that SymPy has no function for."""
-    import sympy as sp
-
     match term:
         case s.Name(name):
             return symbol_of(name)
@@ -202,8 +196,6 @@ def term_to_sympy(term: s.Term) -> Any:
 
 def _node_to_sympy(node: s.Node) -> Any:
     """The SymPy Boolean of a surface tree without quantifiers."""
-    import sympy as sp
-
     match node:
         case s.Truth(value):
             return sp.true if value else sp.false
@@ -228,46 +220,40 @@ def _is_end(left: Any, right: Any) -> bool:
 
 def expression_from(given: object) -> Any:
     """The SymPy expression that is given, as an object or a number, not as text."""
-    import sympy
-
     expression = _basic(given, "a SymPy expression")
-    if not isinstance(expression, sympy.Expr):
+    if not isinstance(expression, sp.Expr):
         raise InputError(f"a SymPy expression expected, {shown(expression)} found")
     return expression
 
 
 def _basic(given: object, expected: str) -> Any:
     """The SymPy object that is given, or that something of this package stands for (``_sympy_``)."""
-    import sympy
-
-    if isinstance(given, sympy.Basic):
+    if isinstance(given, sp.Basic):
         return given
     if not hasattr(given, "_sympy_") and not isinstance(given, int | Fraction):
         raise InputError(f"{expected} expected, {arguments.shown(given)} found")
-    return sympy.sympify(given)
+    return sp.sympify(given)
 
 
 def sympy_form(value: Any) -> Any:
     """What SymPy takes a value for: the Boolean of a formula, of a set that has one, of solutions as they are printed;
     the values of a point by their symbols; the number that equals a number or an optimum (None: there is none), a
     ``Piecewise`` where it depends on parameters."""
-    import sympy
-
     if isinstance(value, Formula):
         return to_sympy(value)
     if hasattr(value, "lines"):
         return said(" or ".join(value.lines) or "false")
     if hasattr(value, "branches"):
         pieces = [(said(best, term=True), said(where)) for best, where in value.branches]
-        return sympy.Piecewise(*pieces) if pieces else sympy.nan
+        return sp.Piecewise(*pieces) if pieces else sp.nan
     if hasattr(value, "least"):
-        return sympy.Tuple(*map(sympy_form, value))
+        return sp.Tuple(*map(sympy_form, value))
     if hasattr(value, "formula"):
         return to_sympy(value.formula)
     if isinstance(value, dict):
-        return sympy.Dict({sympy.Symbol(name): sympy.sympify(number) for name, number in value.items()})
+        return sp.Dict({sp.Symbol(name): sp.sympify(number) for name, number in value.items()})
     if hasattr(value, "attained"):
-        return None if value.value is None else sympy.sympify(value.value)
+        return None if value.value is None else sp.sympify(value.value)
     return number_to_sympy(value.to_algebraic() if isinstance(value, FieldElement) else value)
 
 
@@ -285,6 +271,4 @@ def to_sympy(formula: Formula, *, symbols: Mapping[str, Any] | None = None) -> A
     ``symbols`` gives the symbols to use for names (default: ``Symbol(name)``). SymPy may simplify as it builds. Raises
     ``InputError`` for quantifiers, and for roots of polynomials with parameters.
     """
-    import sympy
-
-    return said(str(formula)).xreplace({sympy.Symbol(name): symbol for name, symbol in (symbols or {}).items()})
+    return said(str(formula)).xreplace({sp.Symbol(name): symbol for name, symbol in (symbols or {}).items()})

@@ -174,7 +174,9 @@ def tokens(text: str, state: State | None = None) -> Iterator[Token]:
             yield from state.put(KEYWORDS.get(value, "NAME"), PI if state.means_pi(value) else value, at)
         elif kind == "OPERATOR":
             typed = value == ":" and state.header and _TYPE.match(text, at + 1)
-            yield from state.put("IN" if typed else _operator(value, at), value, at)
+            if value not in _OPERATORS:
+                raise SyntaxFailure(f"unknown character {value}", at)
+            yield from state.put("IN" if typed else _OPERATORS[value], value, at)
         elif kind == "NUMBER":
             if value[0] == "." and state.header and state.last != "RELATION":  # the dot ends the quantifier
                 yield from state.put("DOT", ".", at)
@@ -188,10 +190,9 @@ def tokens(text: str, state: State | None = None) -> Iterator[Token]:
             yield from state.raised(value.translate(_RAISED), at)
         elif kind == "CALL":
             yield from state.put(CALLS[value], value, at)
-        elif kind in ("EVERY", "SOME"):
-            yield from state.put("QUANTIFIER", "forall" if kind == "EVERY" else "exists", at)
-        elif kind in ("QUANTITY", "UNIQUE"):
-            yield from state.put("QUANTIFIER", quantity(value), at)
+        elif kind in ("EVERY", "SOME", "QUANTITY", "UNIQUE"):
+            said = {"EVERY": "forall", "SOME": "exists"}.get(kind) or quantity(value)
+            yield from state.put("QUANTIFIER", said, at)
         elif kind == "NONE":
             yield from state.put("NOT", "not", at)
             yield from state.put("QUANTIFIER", "∃", at)
@@ -222,12 +223,6 @@ def _number(value: str, state: State, text: str, at: int) -> str:
     if not value.isascii() and state.last == "NUMBER":
         raise SyntaxFailure("a mixed number is written as one fraction: 5/2", at)
     return value
-
-
-def _operator(value: str, at: int) -> str:
-    if value not in _OPERATORS:
-        raise SyntaxFailure(f"unknown character {value}", at)
-    return _OPERATORS[value]
 
 
 def quoted_name(text: str, at: int) -> str:

@@ -8,9 +8,9 @@ from typing import Any
 import pytest
 
 import qe
-from qe.api.groebner import ComprehensiveGroebnerSystem
 from qe.api.input import read_polynomial
 from qe.exact.ring import Poly
+from qe.groebner.system import ComprehensiveGroebnerSystem
 from tests.unit.groebner.support import Place, places
 
 CORPUS = Path(__file__).parents[3].parent / "shared" / "corpora" / "cgs_problems.jsonl"

@@ -11,15 +11,14 @@ from qe.errors import InputError
 from qe.formula.evaluate import holds_at
 from qe.io import surface as s
 from qe.io.lowering import lower
-from qe.io.sympy_reader import Reader, shown, signs, symbol_name
+from qe.io.sympy_reader import boolean, member, real, shown, signs, symbol_name
 from tests.tables import each
 
 X, Y = sympy.symbols("x y", real=True)
-READER = Reader(sympy)
 
 
 def holds(expression: Any, x: Fraction, y: Fraction = Fraction(0)) -> bool:
-    formula = lower(READER.boolean(expression), lambda message, at: InputError(message))
+    formula = lower(boolean(expression), lambda message, at: InputError(message))
     names = formula.ring.names if formula.ring else ()
     return holds_at(formula, {**dict.fromkeys(names, Fraction(0)), "x": x, "y": y})
 
@@ -69,20 +68,20 @@ def test_formulas(expression: Any, exact: Any) -> None:
 
 def test_sets() -> None:
     term = s.Name("x", -1)
-    assert READER.member(term, S.EmptySet) == s.Truth(False)
+    assert member(term, S.EmptySet) == s.Truth(False)
     condition = sympy.ConditionSet(Y, Y**2 > 1, S.Reals)
-    formula = lower(READER.member(term, condition), lambda message, at: InputError(message))
+    formula = lower(member(term, condition), lambda message, at: InputError(message))
     assert str(formula) == "x^2 > 1"
     with pytest.raises(InputError, match="a set of real numbers"):
-        READER.member(term, S.Integers)
+        member(term, S.Integers)
 
 
 def test_terms() -> None:
-    assert READER.real(sympy.Rational(2, 3)) == s.Number(Fraction(2, 3))
-    assert READER.real(sympy.Float("0.1")) == s.Number(Fraction(1, 10))
-    assert READER.real(-sympy.oo) == s.Minus(s.Infinity(-1))
-    assert isinstance(READER.real(sympy.CRootOf(X**3 - X - 1, 0)), s.Algebraic)
-    assert READER.real(X ** sympy.Rational(1, 3)) == s.Power(s.Name("x", -1), s.Number(Fraction(1, 3)), -1)
+    assert real(sympy.Rational(2, 3)) == s.Number(Fraction(2, 3))
+    assert real(sympy.Float("0.1")) == s.Number(Fraction(1, 10))
+    assert real(-sympy.oo) == s.Minus(s.Infinity(-1))
+    assert isinstance(real(sympy.CRootOf(X**3 - X - 1, 0)), s.Algebraic)
+    assert real(X ** sympy.Rational(1, 3)) == s.Power(s.Name("x", -1), s.Number(Fraction(1, 3)), -1)
 
 
 @each(
@@ -94,9 +93,9 @@ def test_terms() -> None:
 )
 def test_what_is_no_term(expression: Any, said: str) -> None:
     with pytest.raises(InputError, match=said):
-        READER.real(expression)
+        real(expression)
     with pytest.raises(InputError):
-        READER.boolean(X)
+        boolean(X)
 
 
 def test_symbols_and_their_assumptions() -> None:
