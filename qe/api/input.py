@@ -18,6 +18,7 @@ from qe.exact.ring import Poly, Ring
 from qe.formula.build import conj
 from qe.formula.syntax import TRUE, Constant, Exists, ForAll, Formula
 from qe.formula.traverse import has_root_atoms
+from qe.io import formats
 from qe.io.names import names_in
 from qe.io.substitution import over_one_ring
 from qe.proof.answer import Answer
@@ -45,8 +46,6 @@ def read_formula(given: AnyFormula, format: str = "text", total_division: bool =
 
 def read_posed(given: AnyFormula, format: str = "text", total_division: bool = False) -> Read:
     """As ``read_formula``, with what is assumed by itself."""
-    from qe.io import formats
-
     chosen = formats.checked(format)
     if isinstance(given, Formula):
         return given, TRUE
@@ -95,7 +94,6 @@ def note_doubts(given: AnyFormula, formula: Formula, format: str = "text", solve
     A ``Formula`` or an answer was made or read before.
     """
     from qe.formula.doubts import doubts
-    from qe.io import formats
 
     if isinstance(given, Formula | Answer):
         return
@@ -125,8 +123,6 @@ def read_block(given: AnyFormula, format: str = "text", total_division: bool = F
 
     Text and ``qe.Exists``/``qe.ForAll`` still tell which it is; other formulas come without it.
     """
-    from qe.io import formats
-
     formula, known = read_posed(given, format, total_division)
     if not isinstance(formula, Constant):
         return formula, known

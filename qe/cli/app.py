@@ -18,11 +18,9 @@ import typer
 from qe import __version__, arguments
 from qe.api.doors import DOORS
 from qe.api.settings import Limited
-from qe.cli import work
 from qe.cli.options import REPORT, Json, checked, command, door
 from qe.cli.shell import check_writable, enter, examples, limited, remaining, write_file
-from qe.cli.source import ProofFormat, Source, no_file, read_source
-from qe.cli.work import Reply, Request
+from qe.cli.source import ProofFormat, Reply, Request, Source, called, no_file, read_source
 from qe.io.formats import READABLE, Format
 from qe.options import VERIFY_SECONDS
 
@@ -31,6 +29,9 @@ app = typer.Typer(
     rich_markup_mode=None,
     help="Exact real quantifier elimination. FORMULA is text ('ex x. x^2 + b*x + c = 0'), a file, or - for stdin.",
 )
+
+WORK, REGION = "qe.cli.work", "qe.cli.region"
+"""Modules that are loaded where the work is done."""
 
 Formula = Annotated[str, typer.Argument(metavar="FORMULA|FILE|-", show_default=False)]
 InputFormat = Annotated[
@@ -62,13 +63,13 @@ def whole(
 @door(app, "eliminate")
 def eliminate(formula: Formula, format: InputFormat = None, output: Output = Format.TEXT, **settings: Any) -> int:
     """Print a quantifier-free formula equivalent to FORMULA over the real numbers."""
-    return answered(partial(work.eliminate, output=output), formula, format, settings)
+    return answered(partial(called, WORK, "eliminate", output=output), formula, format, settings)
 
 
 @door(app, "decide")
 def decide(formula: Formula, format: InputFormat = None, **settings: Any) -> int:
     """Print true or false for a sentence, sat or unsat for an SMT-LIB script."""
-    return answered(work.decide, formula, format, settings)
+    return answered(partial(called, WORK, "decide"), formula, format, settings)
 
 
 @door(app, "find")
@@ -80,19 +81,15 @@ def find(
     **settings: Any,
 ) -> int:
     """Print exact points that satisfy FORMULA, one a line; the word none where there is no point."""
-    from qe.cli import region as cli_region
-
-    return answered(partial(cli_region.find, n=n, seed=seed), formula, format, settings)
+    return answered(partial(called, REGION, "find", n=n, seed=seed), formula, format, settings)
 
 
 @door(app, "region", also=("order",))
 def region(formula: Formula, format: InputFormat = None, plot: PictureFile = None, **settings: Any) -> int:
     """Describe the set of real points that satisfy FORMULA, cell by cell."""
-    from qe.cli import region as cli_region
-
     check_writable(plot)
-    work = partial(cli_region.region, picture=None if plot is None else plot.suffix or ".png")
-    return answered(work, formula, format, settings, plot=plot)
+    picture = None if plot is None else plot.suffix or ".png"
+    return answered(partial(called, REGION, "region", picture=picture), formula, format, settings, plot=plot)
 
 
 @door(app, "solve")
@@ -105,16 +102,14 @@ def solve(
     **settings: Any,
 ) -> int:
     """Print all real solutions, one case a line, each variable in terms of those before it."""
-    from qe.cli import region as cli_region
-
-    work = partial(cli_region.solve, variables=arguments.names(variables, "--variables"))
-    return answered(work, formula, format, settings)
+    listed = arguments.names(variables, "--variables")
+    return answered(partial(called, REGION, "solve", variables=listed), formula, format, settings)
 
 
 @door(app, "simplify")
 def simplify(formula: Formula, format: InputFormat = None, output: Output = Format.TEXT, **settings: Any) -> int:
     """Print a formula equivalent to FORMULA, not longer; quantifiers stay."""
-    return answered(partial(work.eliminate, output=output, shorter=True), formula, format, settings)
+    return answered(partial(called, WORK, "eliminate", output=output, shorter=True), formula, format, settings)
 
 
 @door(app, "equivalent")
@@ -125,17 +120,13 @@ def equivalent(
     **settings: Any,
 ) -> int:
     """Print true if both formulas have the same solutions in all their free variables, else false."""
-    from qe.cli import region as cli_region
-
-    return answered(partial(cli_region.equivalent, other=read_source(other, format)), formula, format, settings)
+    return answered(partial(called, REGION, "equivalent", other=read_source(other, format)), formula, format, settings)
 
 
 @door(app, "witnesses")
 def witnesses(formula: Formula, format: InputFormat = None, **settings: Any) -> int:
     """Print solutions of the outermost block as terms in the free variables, each under its guard."""
-    from qe.cli import region as cli_region
-
-    return answered(cli_region.witnesses, formula, format, settings)
+    return answered(partial(called, REGION, "witnesses"), formula, format, settings)
 
 
 Objective = Annotated[str, typer.Argument(metavar="OBJECTIVE", show_default=False)]
@@ -153,9 +144,9 @@ def _optimise(name: str, greatest: bool | None) -> None:
         parameters: Parameters = None,
         **settings: Any,
     ) -> int:
-        from qe.cli import optimize as cli_optimize
-
-        work = partial(cli_optimize.optimize, goal=cli_optimize.Goal(objective, greatest, parameters))
+        work = partial(
+            called, "qe.cli.optimize", "optimize", objective=objective, maximize=greatest, parameters=parameters
+        )
         return answered(work, constraints, format, settings)
 
     attained = "where they are attained" if greatest is None else "where it is attained"
@@ -187,9 +178,8 @@ def check(
     source, limits = _certificate(certificate, settings)
     asked = None if formula is None else read_source(formula, None)
     seconds = remaining(limits["timeout"])
-    verdict = partial(work.check, source=source, asked=asked, assuming=assuming, seconds=seconds, as_json=json)
-    verdict = partial(verdict, core=core, plainly=plain)
-    return deliver(limited(verdict, **limits), {})
+    given: dict[str, Any] = {"source": source, "asked": asked, "assuming": assuming, "core": core, "plainly": plain}
+    return deliver(limited(partial(called, WORK, "check", seconds=seconds, as_json=json, **given), **limits), {})
 
 
 @command(app, Limited, "A certificate as proofs for a proof assistant.")
@@ -204,7 +194,7 @@ def export_proof(
     """
     source, limits = _certificate(certificate, settings)
     seconds = remaining(limits["timeout"])
-    return deliver(limited(partial(work.export_proof, source=source, seconds=seconds), **limits), {})
+    return deliver(limited(partial(called, WORK, "export_proof", source=source, seconds=seconds), **limits), {})
 
 
 def _certificate(name: str, settings: dict[str, Any]) -> tuple[Source, dict[str, Any]]:
@@ -221,7 +211,7 @@ def convert(formula: Formula, format: InputFormat = None, output: Output = Forma
     """Print FORMULA in another format, unchanged in meaning."""
     limits = checked(settings)
     source = read_source(formula, format)
-    converted = partial(work.convert, source=source, output=output)
+    converted = partial(called, WORK, "convert", source=source, output=output)
     return deliver(limited(converted, plain=True, text=source.text, **limits), {})
 
 

@@ -4,38 +4,30 @@ from __future__ import annotations
 
 import json
 from collections.abc import Mapping
-from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
+import qe.api.optimum as api_optimum
 from qe.arguments import names
 from qe.cli.numbers import exact_and_decimal, shown
-from qe.cli.work import Reply, Request, in_json
+from qe.cli.source import Reply, Request, in_json
+from qe.convex.optimum import Optimum
 from qe.exact.number import point_text
+from qe.optimization.global_optimum import GlobalOptimum
+from qe.optimization.parametric_optimum import ParametricOptimum
 from qe.processes.channel import Channel
 from qe.proof.multipliers import OptimumStatus
 from qe.spelling import quoted
 
-if TYPE_CHECKING:
-    from qe.convex.optimum import Optimum
-    from qe.optimization.global_optimum import GlobalOptimum
-    from qe.optimization.parametric_optimum import ParametricOptimum
 
-
-@dataclass(frozen=True, slots=True)
-class Goal:
-    """What is to be optimised, as the command line gives it; ``maximize`` is None for both extremes."""
-
-    objective: str
-    maximize: bool | None = False
-    parameters: str | None = None
-
-
-def optimize(channel: Channel, request: Request, goal: Goal) -> Reply:
+def optimize(
+    channel: Channel, request: Request, objective: str, maximize: bool | None, parameters: str | None
+) -> Reply:
     """``qe minimize``, ``qe maximize``: the exact value, the point, and what is active there; with parameters, the
-    cases. ``qe optimum``: both, the least value first."""
-    if goal.maximize is not None:
-        return _best(channel, request, goal)
-    low, high = (_best(channel, request, replace(goal, maximize=way)) for way in (False, True))
+    cases. ``qe optimum`` (``maximize`` is None): both, the least value first."""
+    listed = names(parameters, "parameters")
+    if maximize is not None:
+        return _best(channel, request, objective, maximize, listed)
+    low, high = (_best(channel, request, objective, way, listed) for way in (False, True))
     verdict = low.verdict if low.verdict == high.verdict else f"least: {low.verdict}; greatest: {high.verdict}"
     if request.json:
         both = {"least": json.loads(low.text), "greatest": json.loads(high.text)}
@@ -43,20 +35,18 @@ def optimize(channel: Channel, request: Request, goal: Goal) -> Reply:
     return Reply(f"least\n{low.text}\ngreatest\n{high.text}", verdict=verdict)
 
 
-def _best(channel: Channel, request: Request, goal: Goal) -> Reply:
-    import qe.api.optimum as api_optimum
-    from qe.optimization.parametric_optimum import ParametricOptimum
-
-    solve = api_optimum.maximize if goal.maximize else api_optimum.minimize
-    parameters = names(goal.parameters, "parameters")
-    constraints, keywords, objective = request.read(channel, goal.objective, listed=parameters or ())
+def _best(
+    channel: Channel, request: Request, objective: str, maximize: bool, parameters: tuple[str, ...] | None
+) -> Reply:
+    solve = api_optimum.maximize if maximize else api_optimum.minimize
+    constraints, keywords, objective = request.read(channel, objective, listed=parameters or ())
     keywords["parameters"] = parameters
     best: Optimum | GlobalOptimum | ParametricOptimum = solve(objective, constraints, **keywords)
     if isinstance(best, ParametricOptimum):
         status = OptimumStatus.OPTIMAL if best.cases else OptimumStatus.INFEASIBLE
         data, lines = {"status": status.value, **best.to_dict()}, str(best).splitlines()
     else:
-        data, lines = _data(best), _lines(best, "greatest" if goal.maximize else "least")
+        data, lines = _data(best), _lines(best, "greatest" if maximize else "least")
     how = f"proved {data['status']}" if best.certificate is not None and not best.reason else "found"
     text = "\n".join([*lines, f"{how} in {request.seconds:.3f} s"])
     return request.reply(best, text, {**data, "seconds": request.seconds})
@@ -67,8 +57,6 @@ def _data(best: Optimum | GlobalOptimum) -> dict[str, Any]:
 
     Where no point meets the constraints there is none to show, and no direction where there is an optimum.
     """
-    from qe.convex.optimum import Optimum
-
     data: dict[str, Any] = {
         "status": best.status.value,
         "value": None if best.value is None else exact_and_decimal(best.value),
@@ -100,8 +88,6 @@ def _values(point: Mapping[str, object]) -> list[str]:
 
 def _lines(best: Optimum | GlobalOptimum, extreme: str) -> list[str]:
     """One optimum for people; ``extreme``: the least or greatest value was asked for."""
-    from qe.convex.optimum import Optimum
-
     if best.status is OptimumStatus.INFEASIBLE:
         return ["infeasible: no point meets the constraints"]
     if best.status is OptimumStatus.UNBOUNDED:

@@ -5,31 +5,30 @@ from __future__ import annotations
 import tempfile
 from dataclasses import replace
 from pathlib import Path
-from typing import TYPE_CHECKING
 
+import qe.api.eliminate as api_eliminate
+import qe.api.solve as api_solve
+from qe.api.decide import compared
+from qe.api.input import read_block
 from qe.cli.numbers import shown
-from qe.cli.source import Source
-from qe.cli.work import Reply, Request, in_json, read_question
+from qe.cli.source import Reply, Request, Source, in_json, read_question
 from qe.errors import InputError
 from qe.exact.number import point_text
 from qe.exact.radicals import radical_text
+from qe.io.text import solved_for
 from qe.processes.channel import Channel
+from qe.regions.region import Region
 from qe.spelling import quoted
-
-if TYPE_CHECKING:
-    from qe.regions.region import Region
 
 PICTURES = (".png", ".pdf", ".svg", ".html")
 
 
 def region(channel: Channel, request: Request, picture: str | None) -> Reply:
     """``qe region``: a description for people, or the region's JSON."""
-    import qe.api.eliminate as api
-
     if picture is not None and picture not in PICTURES:
         raise InputError(f"--plot: a file ending in {', '.join(PICTURES)} expected, {picture} found")
     formula, keywords = request.read(channel)
-    solution_set = api.region(formula, **keywords)
+    solution_set = api_eliminate.region(formula, **keywords)
     files: dict[str, str | bytes] = {"certificate": solution_set.proof.to_json()} if request.certificate else {}
     if picture is not None:
         files["plot"] = _drawn(solution_set, picture)
@@ -39,9 +38,6 @@ def region(channel: Channel, request: Request, picture: str | None) -> Reply:
 
 def solve(channel: Channel, request: Request, variables: tuple[str, ...] | None) -> Reply:
     """``qe solve``."""
-    import qe.api.solve as api_solve
-    from qe.io.text import solved_for
-
     variables = variables or solved_for(request.source.text)
     formula, keywords = request.read(channel, solved=variables or ())
     solutions = api_solve.solve(formula, variables, **keywords)
@@ -71,10 +67,8 @@ def _in_words(described: Region, seconds: float) -> list[str]:
 
 def find(channel: Channel, request: Request, n: int, seed: int) -> Reply:
     """``qe find``: a point a line; ``none`` where there is no point."""
-    import qe.api.solve as api
-
     formula, keywords = request.read(channel)
-    points = api.find(formula, n, seed=seed, **keywords)
+    points = api_solve.find(formula, n, seed=seed, **keywords)
     listed = [{name: str(value) for name, value in point.items()} for point in points]
     lines = [point_text({name: radical_text(value) for name, value in p.items()}) or "true" for p in points]
     data = request.data(points=listed)
@@ -84,12 +78,9 @@ def find(channel: Channel, request: Request, n: int, seed: int) -> Reply:
 
 def witnesses(channel: Channel, request: Request) -> Reply:
     """``qe witnesses``: guarded terms, one case a line."""
-    import qe.api.solve as api
-    from qe.api.input import read_block
-
     _, keywords = request.read(channel)
     block, _ = read_block(request.source.text, request.source.format.value)
-    listed = api.witnesses(block, **keywords)
+    listed = api_solve.witnesses(block, **keywords)
     cases = [{"guard": str(one.guard), "terms": dict(one.terms)} for one in listed]
     data = request.data(witnesses=cases)
     return request.reply(listed.answer, "\n".join(map(str, listed)) or "none", data)
@@ -97,8 +88,6 @@ def witnesses(channel: Channel, request: Request) -> Reply:
 
 def equivalent(channel: Channel, request: Request, other: Source) -> Reply:
     """``qe equivalent``: true or false."""
-    from qe.api.decide import compared
-
     one, keywords, text = request.read(channel, other.text)
     two, also = read_question(channel, replace(other, text=text))
     keywords["assuming"] = [also] if keywords["assuming"] is None else [also, keywords["assuming"]]

@@ -24,6 +24,7 @@ from typing import TYPE_CHECKING, Any, TextIO, TypeVar
 import typer
 from typer.main import get_command, get_command_name
 
+from qe.cli.source import in_json
 from qe.cli.values import take_leading_minus, take_plain_values
 from qe.errors import CertificateRejected, DoubtfulInput, InputError, QEError, Unable
 from qe.extras import lacking
@@ -66,8 +67,6 @@ def enter(app: typer.Typer, argv: Sequence[str] | None, *, name: str) -> int:
 
     def reported(status: str, message: str, code: int) -> int:
         if "--json" in words:
-            from qe.cli.work import in_json
-
             try:
                 print(in_json({"status": status, "message": " ".join(message.split()), "exit": code}), flush=True)
             except OSError as error:

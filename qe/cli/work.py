@@ -8,119 +8,28 @@ from __future__ import annotations
 
 import time
 from collections.abc import Callable, Iterator, Mapping, Sequence
-from dataclasses import dataclass, field, replace
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
-from qe.cli.source import Source
+import qe.api.eliminate as api
+from qe.api.limits import under
+from qe.cli.source import Reply, Request, Source, certificate_text, in_json, read_question
 from qe.errors import CertificateRejected, InputError, Unable
+from qe.exact.number import point_text
+from qe.formula.assumed import claimed
+from qe.formula.build import conj, exists
+from qe.formula.syntax import TRUE
 from qe.io import formats
 from qe.io.formats import Format
 from qe.options import Budget
-
-if TYPE_CHECKING:
-    from qe.formula.syntax import Formula
-    from qe.processes.channel import Channel
-    from qe.proof.answer import Answer
-    from qe.proof.certificate import Certificate
-    from qe.proof.partial import Partial
-
-
-@dataclass(frozen=True, slots=True)
-class Reply:
-    """``text`` for stdout, ``notes`` for stderr, the content of each asked-for file, the exit ``code``;
-    ``verdict``: for stderr, what a check has shown."""
-
-    text: str
-    notes: tuple[str, ...] = ()
-    files: Mapping[str, str | bytes] = field(default_factory=dict)
-    code: int = 0
-    verdict: str = ""
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
-class Request:
-    """What the command line requests."""
-
-    source: Source
-    settings: Mapping[str, Any] = field(default_factory=dict)
-    certificate: bool = False
-    json: bool = False
-    check: bool = False
-    explain: bool = False
-    start: float = field(default_factory=time.perf_counter)
-
-    @property
-    def seconds(self) -> float:
-        """How long ago it was made."""
-        return round(time.perf_counter() - self.start, 6)
-
-    def data(self, **answer: Any) -> dict[str, Any]:
-        """An answer for machines."""
-        return {"status": "solved", **answer, "seconds": self.seconds}
-
-    def read(self, channel: Channel, *terms: str, listed: Sequence[str] = (), solved: Sequence[str] = ()) -> Any:
-        """The formula of the source, to be ``solved`` for these; the keywords for a call of the public functions about
-        it, with what it assumes; and ``terms`` of the same problem, whose variables may be ``listed``."""
-        from qe.api.input import of_one_problem, order_of
-
-        source, given = self.source, dict(self.settings)
-        if source.format is Format.TEXT:
-            names, assuming = (*solved, *listed, *(given.get("order") or ())), given.get("assuming")
-            text, assuming, *terms = of_one_problem(source.text, assuming, *terms, listed=names)  # type: ignore[assignment]
-            source, given["assuming"] = replace(source, text=text), assuming
-        formula, known = read_question(channel, source, solved=solved)
-        if "order" in given:
-            given["order"] = order_of(given["order"], source.text, formula)
-        if known.free:
-            given["assuming"] = [known] if given.get("assuming") is None else [known, given["assuming"]]
-        return formula, {**given, "progress": channel.event, "check": self.certificate or self.check}, *terms
-
-    def verdict(self, answer: Any) -> str:
-        """What the check that was wanted has shown."""
-        if not self.check:
-            return ""
-        reason = getattr(answer, "why_unchecked", getattr(answer, "reason", ""))
-        return "checked" if answer.guarantee.value == "checked" else f"not checked: {reason}"
-
-    def reply(
-        self, answer: Any, text: str, data: Mapping[str, Any], *, notes: tuple[str, ...] = (), **files: str | bytes
-    ) -> Reply:
-        """An answer as text, or as JSON where that is wanted, with its certificate and what a check has shown."""
-        if self.certificate:
-            files["certificate"] = certificate_text(answer)
-        shown = in_json(data) if self.json else text
-        return Reply(shown, notes, files, verdict=self.verdict(answer))
-
-
-def in_json(data: Mapping[str, Any]) -> str:
-    """Data as commands print it."""
-    import json
-
-    return json.dumps(data, indent=2, ensure_ascii=False)
-
-
-def read_question(channel: Channel, source: Source, *, solved: Sequence[str] = ()) -> tuple[Formula, Formula]:
-    """The formula of a source, to be ``solved`` for these, and what it assumes; its size is the first thing to be known
-    about the run."""
-    from qe.api.input import note_doubts
-    from qe.formula.traverse import atoms, bound_variables
-
-    read = formats.read_posed
-    formula, known = read(source.text, source.format.value, source=source.name, total_division=source.total_division)
-    note_doubts(source.text, formula, source.format.value, solved)
-    bound, polys = bound_variables(formula), [part.poly for part in atoms(formula)]
-    channel.fact(
-        "formula",
-        f"{len(polys)} atoms of degree up to {max((p.total_degree for p in polys), default=0)} in "
-        f"{len(formula.free) + len(bound)} variables, {len(bound)} of them quantified",
-    )
-    return formula, known
+from qe.processes.channel import Channel
+from qe.processes.limits import Limits
+from qe.proof.answer import Answer
+from qe.proof.certificate import Certificate
+from qe.proof.partial import Partial
 
 
 def eliminate(channel: Channel, request: Request, output: Format, *, shorter: bool = False) -> Reply:
     """``qe eliminate`` and ``qe simplify``."""
-    import qe.api.eliminate as api
-
     ask: Callable[..., Answer] = api.simplify if shorter else api.eliminate
     formula, keywords = request.read(channel)
     answer = ask(formula, **keywords)
@@ -155,16 +64,11 @@ def _partial_reply(answer: Answer, partial: Partial, request: Request, output: F
 
 def decide(channel: Channel, request: Request) -> Reply:
     """``qe decide``: a sentence is true or false; an SMT-LIB script, whose constants are existential, sat or unsat."""
-    import qe.api.eliminate as api
-    from qe.api.limits import under
-    from qe.formula import build
-    from qe.processes.limits import Limits
-
     script = request.source.format is Format.SMTLIB
     formula, keywords = request.read(channel)
-    stated = under(formula, build.conj(()), keywords.pop("assuming"), Limits(), numbers=True)
+    stated = under(formula, TRUE, keywords.pop("assuming"), Limits(), numbers=True)
     if script:
-        sentence = build.exists(stated.restricted.free, stated.restricted)
+        sentence = exists(stated.restricted.free, stated.restricted)
     else:
         sentence = stated.closed(stated.formula)
         if free := [name for name in stated.formula.free if name not in stated.known.free]:
@@ -193,8 +97,6 @@ def _summary(answer: Answer, seconds: float) -> dict[str, Any]:
 
 def convert(channel: Channel, source: Source, output: Format) -> Reply:
     """``qe convert``."""
-    from qe.formula.build import conj
-
     formula, known = read_question(channel, source)
     return Reply(formats.write(conj((known, formula)), output.value).rstrip("\n"))
 
@@ -211,12 +113,9 @@ def check(
     plainly: bool = False,
 ) -> Reply:
     """``qe check``: exit status 4 when the certificate is rejected, 3 when that is not decided."""
-    from qe.api.limits import under
     from qe.api.verify import of_question, read_plainly
     from qe.certify.claims import claim_of, is_about, parts_of
     from qe.certify.verify import verify
-    from qe.formula.assumed import claimed
-    from qe.processes.limits import Limits
 
     start = time.perf_counter()
     formula = None
@@ -263,28 +162,16 @@ def export_proof(channel: Channel, source: Source, seconds: float) -> Reply:
 
 
 def _certificate(source: Source) -> Certificate:
-    from qe.proof.certificate import Certificate
-
     try:
         return Certificate.from_json(source.text)
     except InputError as error:
         raise InputError(f"{source.name}: {error}") from None
 
 
-def certificate_text(answer: object) -> str:
-    """The JSON of an answer's certificate; ``Unable`` where there is none."""
-    certificate = getattr(answer, "certificate", None)
-    if certificate is None:
-        raise Unable("there is no certificate for this kind of answer")
-    return str(certificate.to_json())
-
-
 def _story(request: Request, answer: Answer) -> tuple[str, ...]:
     """For people who want it: the witness, the guarantee, and the steps that led to the answer."""
     if request.json or not request.explain:
         return ()
-    from qe.exact.number import point_text
-
     lines = []
     if answer.witness:
         lines.append(f"{'counterexample' if answer.truth is False else 'witness'}: {point_text(answer.witness)}")
