@@ -14,13 +14,11 @@ from decimal import Decimal
 from enum import Enum
 from fractions import Fraction
 from numbers import Integral, Rational, Real
-from typing import TYPE_CHECKING, Any, TypeVar
+from pathlib import Path
+from typing import Any, TypeVar
 
 from qe.errors import InputError
 from qe.spelling import QUOTED, unquoted
-
-if TYPE_CHECKING:
-    from pathlib import Path
 
 Choice = TypeVar("Choice", bound=Enum)
 T = TypeVar("T")
@@ -146,8 +144,6 @@ def ratio(given: object, what: str) -> Fraction:
 
 def path(value: object, what: str = "path") -> Path:
     """The name of a file."""
-    from pathlib import Path
-
     found = Path(instance(value, str | Path, what, "the name of a file"))  # type: ignore[arg-type]
     parts = [part.encode(errors="surrogatepass") for part in found.parts]
     if value == "" or "\0" in str(found) or any(len(part) > LONGEST_PART for part in parts) or not _is_name(found):

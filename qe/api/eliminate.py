@@ -22,9 +22,11 @@ from qe.formula.build import conj
 from qe.formula.evaluate import holds_at
 from qe.formula.numbers import bounds_of_numbers, is_settled
 from qe.formula.syntax import FALSE, Formula
+from qe.io import formats
 from qe.io.sharing import refuse_shared
 from qe.io.substitution import over_one_ring
 from qe.options import VERIFY_SECONDS, Budget, Cluster, Method, Options, Projection, Stage
+from qe.processes.channel import Channel
 from qe.processes.limits import Limits
 from qe.proof.answer import UNPROVED, Answer, Guarantee, Status
 from qe.proof.certificate import Certificate
@@ -33,7 +35,6 @@ from qe.proof.run_log import RunLog
 
 if TYPE_CHECKING:  # the checker and the optimiser are loaded where they are used
     from qe.kernel.verdict import Verdict
-    from qe.processes.channel import Channel
     from qe.regions.region import Region
 
 WHOLE_SHARE, PARTS_SHARE = 0.5, 0.85
@@ -265,7 +266,6 @@ def verify(
     and a limit that is not positive.
     """
     from qe.api.verify import verify as check
-    from qe.io import formats
 
     chosen = formats.checked(format)
     problem = None

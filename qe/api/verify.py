@@ -15,18 +15,19 @@ from typing import TYPE_CHECKING
 from qe.certify.verify import verify as kernel_verdict
 from qe.errors import CertificateRejected, InternalError, Unable
 from qe.formula.features import text_may_block
+from qe.formula.normal import rename_apart, without_clashes
 from qe.formula.syntax import Formula
+from qe.kernel.verdict import Verdict
 from qe.options import VERIFY_SECONDS, Budget, Options
+from qe.processes.channel import Channel
 from qe.processes.execution import perform, run
 from qe.processes.limits import Limits
 from qe.proof.answer import UNPROVED, Answer, Guarantee
 from qe.proof.certificate import Certificate, Labelled
-from qe.proving.certificates import without_loss
+from qe.proof.entry import Json
+from qe.proving.certificates import derived_or_decomposed, without_loss
 
 if TYPE_CHECKING:
-    from qe.kernel.verdict import Verdict
-    from qe.processes.channel import Channel
-    from qe.proof.entry import Json
     from qe.regions.region import Region
 
 SHARE = 0.8
@@ -60,8 +61,6 @@ def read_plainly(text: str, seconds: float) -> Verdict:
 
     Raises ``InputError`` for what is no certificate.
     """
-    from qe.kernel.verdict import Verdict
-
     budget = Budget(seconds)
     try:
         Certificate.from_json(text)
@@ -81,7 +80,6 @@ def read_plainly(text: str, seconds: float) -> Verdict:
 def of_question(certificate: Certificate, asked: Formula) -> Verdict:
     """The verdict on an accepted certificate: whether it is about a question."""
     from qe.certify.claims import claim_of, parts_of
-    from qe.kernel.verdict import Verdict
 
     if parts_of(certificate, asked) is not None:
         return Verdict(True)
@@ -119,8 +117,6 @@ def with_derivation(answer: Answer, timeout: float | None = None) -> Answer:
 
 def _proved(answer: Answer, budget: Budget) -> Answer:
     from qe.formula.counting import without_root_atoms
-    from qe.formula.normal import rename_apart, without_clashes
-    from qe.proving.certificates import derived_or_decomposed
 
     asked, said = answer.sides
     question = rename_apart(without_root_atoms(without_clashes(asked)))
@@ -166,8 +162,6 @@ def with_guarantee(region: Region, budget: Budget) -> Region:
 def _limited(certificate: Certificate, timeout: float | None, *, core: bool = False) -> Verdict:
     if timeout is None or (certificate.digests is None and _is_small(certificate)):
         return kernel_verdict(certificate, Budget(timeout), core=core)
-    from qe.kernel.verdict import Verdict
-
     try:
         return run(partial(_checked, certificate, core), Limits(timeout), grace=GRACE)
     except Unable as error:

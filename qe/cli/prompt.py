@@ -12,6 +12,7 @@ import shlex
 from collections.abc import Callable
 from contextlib import suppress
 from dataclasses import dataclass, field
+from difflib import get_close_matches
 from pathlib import Path
 from typing import Any
 
@@ -83,8 +84,6 @@ class Session:
         if (setting := name.replace("-", "_")) in SETTINGS:
             return self._set(setting, rest.strip())
         if name not in COMMANDS:
-            from difflib import get_close_matches
-
             near = get_close_matches(name, (*COMMANDS, "quit", *SETTINGS), 1)
             raise InputError(
                 f"no such command: :{name}; " + (f"did you mean :{near[0]}?" if near else ":help lists them")

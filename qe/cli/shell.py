@@ -16,7 +16,9 @@ import warnings
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 from copy import copy
+from difflib import get_close_matches
 from functools import partial
+from itertools import takewhile
 from pathlib import Path
 from types import FrameType, TracebackType
 from typing import TYPE_CHECKING, Any, TextIO, TypeVar
@@ -28,10 +30,10 @@ from qe.cli.source import in_json
 from qe.cli.values import take_leading_minus, take_plain_values
 from qe.errors import CertificateRejected, DoubtfulInput, InputError, QEError, Unable
 from qe.extras import lacking
+from qe.progress import Event
 
 if TYPE_CHECKING:
     from qe.processes.channel import Channel
-    from qe.progress import Event
 
 T = TypeVar("T")
 
@@ -178,14 +180,10 @@ def _doubts_noted(name: str, *, wanted: bool) -> Iterator[None]:
 
 def _misspelt(command: Any, words: Sequence[str]) -> str:
     """The first word that looks like an option and is none, with the nearest one that there is; "" without one."""
-    from itertools import takewhile
-
     known = {"--help", *_options(command)}
     for word in takewhile(lambda word: word != "--", words):
         option = word.split("=")[0]
         if option.startswith("--") and option not in known and " " not in option:
-            from difflib import get_close_matches
-
             near = get_close_matches(option, sorted(known), 1)
             return f"no such option: {option}" + (f"; did you mean {near[0]}?" if near else "")
     return ""

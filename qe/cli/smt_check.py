@@ -12,12 +12,12 @@ from qe.errors import BudgetExceeded, Unable
 from qe.io import surface as s
 from qe.io.smtlib_parser import Expression
 from qe.io.smtlib_script import Script
+from qe.options import Budget
 
 if TYPE_CHECKING:
     from qe.cli.smt_values import Number
     from qe.formula.syntax import Formula
     from qe.io.total import Total
-    from qe.options import Budget
     from qe.proof.answer import Answer
 
 MOST_PARTS = 300

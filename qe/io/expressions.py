@@ -23,6 +23,7 @@ from qe.io.lowering import lower, lower_term
 from qe.io.names import bound_names, check_name
 from qe.io.substitution import over_one_ring, substitute
 from qe.io.terms import Value
+from qe.spelling import quoted
 
 Operation = Callable[["Expression", object], "Expression"]
 
@@ -252,8 +253,6 @@ def _shown(term: s.Term) -> str:
     """The term as text."""
     match term:
         case s.Name(name):
-            from qe.spelling import quoted
-
             return quoted(name)
         case s.Number(value):
             shown = str(Fraction(value))

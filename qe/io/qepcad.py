@@ -1,9 +1,7 @@
 """QEPCAD B input: a whole session or one formula, ``(E x)[ a x^2 + b x + c = 0 /\\ ~[ x < 0 ] ]``.
 
 A session is ``[ comment ]``, the list of variables ``(a,b,c,x)``, the number of free ones, the prenex formula ended by
-a dot, and commands. Products are written by juxtaposition, formulas are bracketed with ``[ ]``, polynomials with
-``( )``. ``assume [ a > 0 ]`` among the commands is what the question is asked under. ``(F x)`` says infinitely many x,
-``(G x)`` all but finitely many, ``(C x)`` that they are connected, ``(X 2 x)`` exactly two. Root atoms are
+a dot, and commands, of which ``assume [ a > 0 ]`` says what the question is asked under. Root atoms are
 ``x < _root_2 x^2 - y``. The writer brings the formula into prenex form.
 """
 

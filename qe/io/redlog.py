@@ -1,9 +1,8 @@
 """Redlog formulas (REDUCE syntax): ``ex(x, a*x**2 + b*x + c = 0)``, ``all({x,y}, …)``, ``and or not impl repl equiv``.
 
-The reader also takes ``name := …`` in front, ``rlqe(formula, {a > 0})`` (and ``rlcad``, ``rlgqe``, …; the theory in the
-second argument is what the question is asked under), ``;`` or ``$`` at the end, comments from ``%`` to the end of the
-line, and ``**`` as well as ``^``. ``e``, ``i`` and ``pi`` are constants of REDUCE and no variables. The writer renames
-what REDUCE would misread (its words, letters that are not ASCII) and quotes capitals with ``!``: no case is folded.
+The reader also takes ``name := …`` in front and ``rlqe(formula, {a > 0})`` (and ``rlcad``, …; the theory is what the
+question is asked under). The writer renames what REDUCE would misread (its words, letters that are not ASCII) and
+quotes capitals with ``!``: no case is folded.
 """
 
 from __future__ import annotations

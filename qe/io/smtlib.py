@@ -1,13 +1,8 @@
-"""SMT-LIB 2 scripts of the logics QF_NRA and NRA.
+"""SMT-LIB 2 scripts of the logics QF_NRA and NRA (``docs/formats.md``): what they assert, and formulas as scripts.
 
-Reading: ``declare-const``, ``declare-fun`` (without arguments), ``define-const``, ``define-fun``, ``assert`` (all of
-them joined), ``let``, ``exists``, ``forall``, ``ite`` on both sorts, the core connectives, ``+ - * /`` with division
-by constants, the comparisons and ``distinct``. Commands that only ask for output are passed over, ``exit`` ends the
-script, and what would change the assertions later (``push``, ``pop``, an ``assert`` after ``check-sat``) is refused.
-A Boolean constant p becomes a real variable p with the atom ``p > 0``: p is true where it is positive, which is
-equisatisfiable, also under quantifiers, because both cases of p have a real value.
-
-Writing: a whole script with ``set-logic``, one declaration per free variable, and one ``assert``.
+Commands that only ask for output are passed over, ``exit`` ends the script, and what would change the assertions later
+(``push``, ``pop``, an ``assert`` after ``check-sat``) is refused. A Boolean constant p becomes a real variable p with
+the atom ``p > 0``, which is equisatisfiable, also under quantifiers, because both cases of p have a real value.
 """
 
 from __future__ import annotations

@@ -1,11 +1,9 @@
 """SymPy Booleans in and out.
 
-Read: relations, ``And Or Not Implies Equivalent Xor ITE``, ``Contains`` in sets of reals, and terms made of algebraic
-numbers, quotients, rational powers, ``Abs``, ``Min``, ``Max``, ``sign`` and ``Piecewise``. A SymPy ``Float`` is read as
-the decimal number that it prints: ``0.1*x`` means x/10, as in text. Written: formulas, and real algebraic numbers as
-``Rational``, square roots or ``CRootOf``. SymPy has no quantifiers: ``Exists`` and ``ForAll`` here wrap an expression
-and can be combined with ``& | ~ >>`` among themselves and with SymPy expressions. A symbol may be assumed real, and to
-have a sign, which becomes a condition; assumptions that say more (integer) would be lost and are refused.
+A ``Float`` is read as the decimal number that it prints: ``0.1*x`` means x/10, as in text. SymPy has no quantifiers:
+``Exists`` and ``ForAll`` here wrap an expression and can be combined with ``& | ~ >>`` among themselves and with SymPy
+expressions. A symbol may be assumed real, and to have a sign, which becomes a condition; assumptions that say more
+(integer) would be lost and are refused.
 """
 
 from __future__ import annotations

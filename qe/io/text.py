@@ -1,11 +1,7 @@
-"""The text syntax: ``ex x, y. all z. x^2 + 2*x*y >= 0 and not z = 0 or p -> q``.
+"""The text syntax: ``ex x, y. all z. x^2 + 2*x*y >= 0 and not z = 0 or p -> q``; ``docs/formats.md`` has all of it.
 
-Operators from tight to loose: ``not`` (``~``), ``and`` (``/\\``), ``or`` (``\\/``), ``->`` (``==>``, to the right),
-``<->`` (``<==>``). A quantifier is ``ex`` or ``all`` (also ``exists forall Ex All E A``); its body runs to the end of
-its brackets. Relations ``= /= < <= > >=`` may be chained. Numbers are exact: ``3/4``, ``0.75``,
-``1.5e-3``. Products need no sign where nothing else can be meant: ``2 x (y + 1)``; commas between conditions mean "and"
-(``text_quantifiers``), terms alone are zero. ``x < root(2, x^2 - y)`` compares with the second smallest real root in
-x. A name is a word, possibly with primes, or anything between backquotes: `` `my name` ``. ``#`` starts a comment.
+What a whole text is, beyond the one formula or term that the parser reads: questions in words, definitions behind
+``where``, problems of optimisation, terms alone.
 """
 
 from __future__ import annotations
