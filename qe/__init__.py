@@ -40,7 +40,7 @@ if TYPE_CHECKING:
     from qe.groebner.counting import RealRootClassification
     from qe.groebner.system import ComprehensiveGroebnerSystem
     from qe.io.expressions import Expression, Statement, exists, forall, variables
-    from qe.io.solver_doors import from_z3
+    from qe.io.smtlib import from_z3
     from qe.io.sympy import Exists, ForAll
     from qe.kernel.verdict import Verdict
     from qe.optimization.global_optimum import GlobalOptimum
@@ -67,7 +67,7 @@ _ELSEWHERE = {
     "ForAll": "qe.io.sympy",
     "GlobalOptimum": "qe.optimization.global_optimum",
     **dict.fromkeys(("Expression", "Statement", "exists", "forall", "variables"), "qe.io.expressions"),
-    "from_z3": "qe.io.solver_doors",
+    "from_z3": "qe.io.smtlib",
     "Optimum": "qe.convex.optimum",
     "ParametricOptimum": "qe.optimization.parametric_optimum",
     "ParametricWitness": "qe.elimination.vs.parametric",

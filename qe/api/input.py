@@ -67,7 +67,7 @@ def read_posed(given: AnyFormula, format: str = "text", total_division: bool = F
         return conj(over_one_ring(*parts)), conj(over_one_ring(*known))
     if isinstance(held := getattr(given, "formula", None), Formula):  # of a statement, or a region
         return held, TRUE
-    from qe.io.solver_doors import from_solver
+    from qe.io.smtlib import from_solver
 
     if (formula := from_solver(given)) is not None:
         return formula, TRUE

@@ -196,7 +196,7 @@ def _formula(given: object) -> Formula:
         from qe.io.text import read
 
         return read(given)
-    from qe.io.solver_doors import from_solver
+    from qe.io.smtlib import from_solver
 
     if (formula := from_solver(given)) is not None:
         return formula
@@ -223,9 +223,9 @@ def _compared(left: Expression, relation: Relation, right: object) -> Statement:
 
 def graph_of(name: str, given: object) -> Formula:
     """Where a variable of this name has the value of a term; what has no value has none."""
-    from qe.io import solver_doors
+    from qe.io import smtlib
 
-    if (graph := solver_doors.graph_of(name, given)) is not None:
+    if (graph := smtlib.graph_of(name, given)) is not None:
         return graph
     return lower(s.Comparison([s.Name(name, -1), _term(given)], [Relation.EQ], -1), s.unplaced)
 

@@ -24,9 +24,8 @@ from qe.io import surface as s
 from qe.io import terms
 from qe.io.auxiliaries import Exhausted, Place
 from qe.io.collected import sides
-from qe.io.collecting import Names
 from qe.io.names import refuse_numbers
-from qe.io.sharing import ordered, refuse_long
+from qe.io.sharing import Names, ordered, refuse_long
 from qe.io.terms import TermError, Value
 from qe.io.total import Total
 from qe.io.unfolding import Sums

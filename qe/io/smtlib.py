@@ -3,6 +3,9 @@
 Commands that only ask for output are passed over, ``exit`` ends the script, and what would change the assertions later
 (``push``, ``pop``, an ``assert`` after ``check-sat``) is refused. A Boolean constant p becomes a real variable p with
 the atom ``p > 0``, which is equisatisfiable, also under quantifiers, because both cases of p have a real value.
+
+Formulas of z3 and pySMT, which are imported when something of theirs is given, are read as what their own printers
+write.
 """
 
 from __future__ import annotations
@@ -10,11 +13,11 @@ from __future__ import annotations
 import re
 from collections.abc import Mapping
 from itertools import takewhile
-from typing import TypeAlias, cast
+from typing import Any, TypeAlias, cast
 
 from qe.errors import InputError, ParseError
 from qe.formula.notation import Monomial, digits, oriented
-from qe.formula.syntax import And, Atom, Constant, Exists, ForAll, Formula, Not, Or, Relation
+from qe.formula.syntax import TRUE, And, Atom, Constant, Exists, ForAll, Formula, Not, Or, Relation
 from qe.formula.traverse import children
 from qe.io.names import Renaming, names_in
 from qe.io.smtlib_parser import Expression, parse
@@ -144,3 +147,55 @@ def _monomial(coefficient: int, powers: tuple[tuple[str, int], ...], names: Name
     if coefficient != 1 or not factors:
         factors.insert(0, digits(coefficient) if coefficient >= 0 else f"(- {digits(-coefficient)})")
     return factors[0] if len(factors) == 1 else f"(* {' '.join(factors)})"
+
+
+def from_solver(given: Any) -> Formula | None:
+    """The formula of an object of z3 or pySMT; None for any other."""
+    doors = {"z3": from_z3, "pysmt": _from_pysmt}
+    door = doors.get(type(given).__module__.partition(".")[0])
+    return None if door is None else door(given)
+
+
+def graph_of(name: str, given: Any) -> Formula | None:
+    """Where a variable of this name has the value of a term of z3; None for any other."""
+    if type(given).__module__.partition(".")[0] != "z3":
+        return None
+    import z3
+
+    return from_z3(z3.Real(name, given.ctx) == given)
+
+
+def from_z3(given: Any) -> Formula:
+    """The formula of a z3 expression of sort Bool, of a list of them (their conjunction), or of what a solver holds.
+
+    Raises ``InputError`` for what is not about real numbers.
+    """
+    if hasattr(given, "assertions"):
+        if hasattr(given, "to_smt2"):
+            return read(given.to_smt2(), source="<z3>")
+        given = list(given.assertions())  # an optimiser
+        if not given:
+            return TRUE
+    parts = list(given) if isinstance(given, list | tuple) else [given]
+    if not parts or not all(hasattr(part, "sexpr") and hasattr(part, "ctx") for part in parts):
+        raise InputError("from_z3: a Boolean expression of z3, a list of them, or a solver expected")
+    import z3
+
+    solver = z3.Solver(ctx=parts[0].ctx)
+    try:
+        solver.add(*parts)
+    except z3.Z3Exception as error:
+        raise InputError(f"from_z3: Boolean expressions expected: {str(error).splitlines()[0]}") from None
+    return read(solver.to_smt2(), source="<z3>")
+
+
+def _from_pysmt(given: Any) -> Formula:
+    from pysmt.smtlib.printers import to_smtlib
+    from pysmt.utils import quote
+
+    if not hasattr(given, "get_free_variables") or not given.get_type().is_bool_type():
+        raise InputError("a pySMT formula expected, a term found")
+    lines = []
+    for symbol in sorted(given.get_free_variables(), key=lambda symbol: str(symbol.symbol_name())):
+        lines.append(f"(declare-const {quote(symbol.symbol_name())} {symbol.symbol_type()})")
+    return read("\n".join([*lines, f"(assert {to_smtlib(given)})"]), source="<pysmt>")

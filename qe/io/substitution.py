@@ -12,8 +12,8 @@ from qe.formula.normal import rename_apart
 from qe.formula.syntax import Atom, Formula, Relation
 from qe.formula.traverse import atoms, bound_variables, map_atoms
 from qe.io import surface as s
-from qe.io.collecting import Names
 from qe.io.lowering import lower, lower_term
+from qe.io.sharing import Names
 from qe.io.terms import Value
 
 

@@ -15,8 +15,8 @@ from typing import Any, TypeAlias
 from qe.formula.relation import Relation
 from qe.io import surface as s
 from qe.io import text_lexer
-from qe.io.collecting import Names
 from qe.io.parser import BODY, CLOSES, FORMULA, NOT, RELATIONS, TERM, Parser, Waiting, counted
+from qe.io.sharing import Names
 from qe.io.text_errors import SyntaxFailure, unmatched_opening
 from qe.io.tokens import END, Token
 from qe.spelling import WORD

@@ -20,7 +20,7 @@ from typing import TypeAlias
 from qe.formula.build import conj, disj
 from qe.formula.syntax import Formula, Relation
 from qe.io import terms
-from qe.io.collecting import chain
+from qe.io.sharing import chain
 from qe.io.surface import Apply, Choice, Comparison, Minus, Product, Quotient, Sum, Term
 from qe.io.terms import Value
 

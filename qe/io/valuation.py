@@ -14,7 +14,7 @@ from qe.io import cases, terms
 from qe.io import surface as s
 from qe.io.auxiliaries import Auxiliaries, Auxiliary, Meaning, Place
 from qe.io.cases import Case, Cases
-from qe.io.collecting import chain
+from qe.io.sharing import chain
 from qe.io.terms import TermError, Value
 from qe.io.total import Total
 

@@ -13,9 +13,9 @@ from qe.formula.relation import Relation
 from qe.formula.syntax import Formula
 from qe.io import formats
 from qe.io import surface as s
-from qe.io.collecting import Names, chain
 from qe.io.lowering import lower
 from qe.io.parser import INFIX, PREFIX, TERM, parsed
+from qe.io.sharing import Names, chain
 from qe.io.text_errors import Failing, SyntaxFailure
 from qe.io.text_parser import LatexParser, TextParser, parser_of
 from tests.tables import each

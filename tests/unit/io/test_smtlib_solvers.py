@@ -6,7 +6,7 @@ import pytest
 
 import qe
 from qe.errors import InputError
-from qe.io.solver_doors import from_z3
+from qe.io.smtlib import from_z3
 from tests.tables import each
 
 z3 = pytest.importorskip("z3")
