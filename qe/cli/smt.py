@@ -80,7 +80,6 @@ class Solver(Checks):
     def restart(self) -> None:
         """Forget everything but the options."""
         self.script = Script(Failing("", "<smt>"), self.tick)
-        self.lost: list[bool] = [False]
         self.result: Result | None = None
         self.status = ""  # what the script says that the next check will answer
 
@@ -102,7 +101,7 @@ class Solver(Checks):
                 text = text[start:]
                 ends.cut(start)
             if len(text) > (PIECE if self.late else MOST_BYTES):
-                self.lost[-1] = self.failed = self.done = True
+                self.script.lost = self.failed = self.done = True
                 self.put('(error "unable: a command has no end within the limits, nothing behind it is read")')
                 return
         if len(text) > PIECE and ends.depth:
@@ -125,7 +124,7 @@ class Solver(Checks):
                 return
             commands = parse(text, fail)
         except InputError as error:
-            self.lost[-1] = self.lost[-1] or asserts
+            self.script.lost |= asserts
             self.error(error)
             return
         for command in commands:
@@ -149,7 +148,7 @@ class Solver(Checks):
 
     def passed_over(self, head: str) -> None:
         """A command that there was no time to read; what is asserted is not known any more."""
-        self.lost[-1] = self.lost[-1] or head == "assert"
+        self.script.lost |= head == "assert"
         if self.options.get(":print-success") == "true":
             self.error(InputError("unable: time limit reached"))
 
@@ -167,10 +166,10 @@ class Solver(Checks):
             reply = self.reply(head, cast(list[Expression], command))
         except InputError as error:
             kept = self.script.keep(cast(list[Expression], command)) if command_name(command) else True
-            self.lost[-1] = self.lost[-1] or not kept
+            self.script.lost |= not kept
             self.error(error)
         except (Unable, RecursionError) as error:
-            self.lost[-1] = self.lost[-1] or command_name(command) == "assert"
+            self.script.lost |= command_name(command) == "assert"
             said = f"unable: {error}" if isinstance(error, Unable) else "the command is nested too deeply"
             self.error(InputError(said))
         else:
@@ -249,10 +248,8 @@ class Solver(Checks):
         self.result = None
         if head == "push":
             self.script.push(count)
-            self.lost += [False] * count
         else:
             self.script.pop(count, command)
-            del self.lost[len(self.lost) - count :]
 
     def reset_assertions(self) -> None:
         """Drop all levels and assertions; declarations stay only where they are global."""
@@ -262,6 +259,7 @@ class Solver(Checks):
         if options:
             kept.levels.clear()
             kept.assertions.clear()
+            kept.lost = False
             self.script = kept
 
     def info(self, key: str) -> str:
@@ -275,7 +273,7 @@ class Solver(Checks):
     def check(self, extra: Sequence[s.Node] = (), asked: tuple[Expression, ...] = ()) -> str:
         nodes = [assertion.node for assertion in self.script.assertions]
         result = self.solved([*nodes, *extra])
-        if result.answer == "sat" and any(self.lost):
+        if result.answer == "sat" and self.script.lost:
             result = Result("unknown", "(an assertion was not understood)")
         if result.answer == "sat" and self.script.objectives:
             from qe.cli.smt_objectives import optimised  # and what optimises

@@ -3,14 +3,15 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
+from copy import copy
 from itertools import count
-from typing import TYPE_CHECKING, NamedTuple, cast
+from typing import TYPE_CHECKING, Any, NamedTuple, cast
 
 from qe.errors import InputError, Unable
 from qe.io import surface as s
 from qe.io.smtlib_parser import Expression, place, plain
 from qe.io.smtlib_terms import Terms
-from qe.io.smtlib_words import Foreign, Macro, Meaning, is_real
+from qe.io.smtlib_words import Foreign, Macro, is_real
 
 if TYPE_CHECKING:
     from qe.formula.syntax import Formula
@@ -33,26 +34,21 @@ class Objective(NamedTuple):
     written: Expression
 
 
-class Level(NamedTuple):
-    """What there was when ``push`` was said."""
-
-    globals: dict[str, Meaning | Macro | Foreign]
-    constants: dict[str, tuple[str, str]]
-    names: int
-    shared: int
-    assertions: int
-    objectives: int
+_KEPT = ("globals", "constants", "names", "shared", "assertions", "objectives", "lost")
+"""What there was when ``push`` was said comes back."""
 
 
 class Script(Terms):
-    """``constants``: sort and name in formulas of every declared symbol, in order. ``assertions``: what holds."""
+    """``constants``: sort and name in formulas of every declared symbol, in order. ``assertions``: what holds;
+    ``lost``: whether something was asserted that is not among them."""
 
     def __init__(self, fail: s.Fail, tick: Callable[[], None] = lambda: None) -> None:
         super().__init__(fail, tick)
         self.constants: dict[str, tuple[str, str]] = {}
         self.assertions: list[Assertion] = []
         self.objectives: list[Objective] = []
-        self.levels: list[Level] = []
+        self.levels: list[dict[str, Any]] = []
+        self.lost = False
 
     def head(self, command: Expression) -> str:
         """The name of a command."""
@@ -144,19 +140,16 @@ class Script(Terms):
     # --- levels ----------------------------------------------------------------------------------------------
     def push(self, count: int) -> None:
         """Remember the state, ``count`` times."""
-        sizes = len(self.names), len(self.shared), len(self.assertions), len(self.objectives)
-        self.levels += [Level(dict(self.globals), dict(self.constants), *sizes) for _ in range(count)]
+        self.levels += [{name: copy(getattr(self, name)) for name in _KEPT}] * count
 
     def pop(self, count: int, at: Expression) -> None:
         """Go back to the state before the last ``count`` levels."""
         if count > len(self.levels):
             self.error(f"pop {count}, but there are only {len(self.levels)} levels", at)
-        for _ in range(count):
-            level = self.levels.pop()
-            self.globals, self.constants = level.globals, level.constants
-            self.taken.difference_update(self.names[level.names :])
-            del self.names[level.names :], self.shared[level.shared :], self.assertions[level.assertions :]
-            del self.objectives[level.objectives :]
+        if count:
+            vars(self).update({name: copy(value) for name, value in self.levels[-count].items()})
+            del self.levels[-count:]
+        self.taken = {*self.names}
         kept = set(map(id, self.shared))
         self.forms = {form: part for form, part in self.forms.items() if id(part) in kept}
         self.expanded.clear()
