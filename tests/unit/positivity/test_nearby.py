@@ -89,3 +89,13 @@ def test_they_are_found_where_the_one_nearby_is() -> None:
 def test_what_is_not_a_little_more(text: str) -> None:
     """Short coefficients already, and polynomials that are negative at (1, 1, 0)."""
     assert positive_beyond(read_polynomial(text)[0].convert(RING), EVERY, ()) is None
+
+
+@each(
+    ("10^20*(x^4 + y^4 + 2*z^4) - (4*10^20 - 1)*x*y*z^2", True),
+    ("10^20*(x^4 + y^4 + 2*z^4) - (4*10^20 + 1)*x*y*z^2", False),
+    ("10^20*(x^4 + y^4 + z^4) + x*y", False),
+)
+def test_odd_powers_of_what_may_be_negative_fit_exactly(text: str, fits: bool) -> None:
+    """x*y is negative next to zero, however small its coefficient is."""
+    assert (positive_beyond(read_polynomial(text)[0].convert(RING), frozenset(), ()) is not None) is fits
