@@ -8,12 +8,12 @@ from functools import partial
 from typing import Any, Unpack, cast
 
 from qe import arguments
-from qe.api.eliminate import answered_under
+from qe.api.eliminate import answered_under, instance
 from qe.api.input import AnyFormula, of_one_problem, order_of, read_polynomial
 from qe.api.limits import limits_of, posed, read_under, under
 from qe.api.settings import Decision, Search, settings_in, with_settings
 from qe.errors import InputError, Unable
-from qe.exact.number import Assignment, ExactPoint
+from qe.exact.number import Assignment
 from qe.exact.ring import Poly, Ring
 from qe.formula.assumed import Posed
 from qe.formula.build import conj, convert, exists, forall, iff, implies
@@ -47,13 +47,7 @@ def find_instance(formula: AnyFormula, **settings: Unpack[Decision]) -> Assignme
     """
     limits = limits_of(settings)
     given = posed(formula, settings, limits).restricted
-    free = given.free
-    answer = _decided(exists(free, given), formula, settings, limits)
-    if answer.truth is False:
-        return None
-    if answer.witness is None and free:
-        raise Unable("the formula is satisfiable, but no witness was found")
-    return ExactPoint({name: (answer.witness or {}).get(name, Fraction(0)) for name in free})
+    return instance(_decided(exists(given.free, given), formula, settings, limits), given)
 
 
 @with_settings(Search)

@@ -15,7 +15,7 @@ from qe.api.input import AnyFormula, order_of, read_posed
 from qe.api.limits import limits_of, performed, posed, under
 from qe.api.settings import Elimination, Order, ProvedQuestion, Search, with_settings
 from qe.errors import InputError, InternalError, Unable
-from qe.exact.number import point_text
+from qe.exact.number import ExactPoint, point_text
 from qe.formula.assumed import Aim, Posed, claimed
 from qe.formula.block import Block
 from qe.formula.build import conj
@@ -184,8 +184,18 @@ def decided(sentence: Formula, options: Options, budget: Budget) -> Answer:
     return answer
 
 
-def _answer_by(problem: Posed, options: Options, check: bool, method: Method, budget: Budget) -> Answer:
-    return _answer(problem, options.with_(method=method), check, None, budget)
+def instance(answer: Answer, given: Formula) -> ExactPoint | None:
+    """The values of the free variables of a formula that an answer, whether there are any, comes with; None: there are
+    none."""
+    if answer.truth is False:
+        return None
+    if answer.witness is None and given.free:
+        raise Unable("the formula is satisfiable, but no point was found")
+    return ExactPoint({name: (answer.witness or {}).get(name, Fraction(0)) for name in given.free})
+
+
+def _answer_by(problem: Posed, options: Options, check: bool, method: Method, channel: Channel) -> Answer:
+    return _answer(problem, options.with_(method=method), check, None, channel.budget())
 
 
 def _answer(problem: Posed, options: Options, check: bool, cluster: Cluster | None, budget: Budget) -> Answer:
@@ -276,14 +286,14 @@ def verify(
     return check(certificate, formula=problem, timeout=arguments.seconds(timeout), core=core)
 
 
-def raced(asked: Callable[[Method, Budget], Answer], methods: Iterable[Method], limits: Limits) -> Answer:
+def raced(asked: Callable[[Method, Channel], Answer], methods: Iterable[Method], limits: Limits) -> Answer:
     """The first answer that ``asked``, which can be pickled, has by one of the methods, within the limits; UNABLE, with
     the reasons of all, where none has one."""
     from qe.processes.racing import first
 
     unproved: list[Answer] = []
     order = sorted(methods, key=lambda method: method.value)
-    works = {method: partial(_attempt, asked, method) for method in order}
+    works = {method: partial(asked, method) for method in order}
     winner, answers = first(works, lambda answer: answer.status is Status.SOLVED, limits, kept=unproved.append)
     answer = None if winner is None else answers[winner]
     if winner is not None and isinstance(answer, Answer):
@@ -300,7 +310,3 @@ def _reason(outcome: object) -> str:
     if isinstance(outcome, Answer):
         return outcome.reason
     return "its process ended without an answer" if outcome is None else str(outcome)
-
-
-def _attempt(asked: Callable[[Method, Budget], Answer], method: Method, channel: Channel) -> Answer:
-    return asked(method, channel.budget())

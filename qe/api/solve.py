@@ -1,22 +1,21 @@
-"""The public functions that list solutions: ``solve``, ``find_instances``, ``parametric_witnesses``."""
+"""The public functions that list solutions: ``solve``, ``find``, ``witnesses``."""
 
 from __future__ import annotations
 
 from dataclasses import replace
-from fractions import Fraction
 from functools import partial
-from typing import TYPE_CHECKING, Any, Unpack, cast
+from typing import TYPE_CHECKING, Any, Unpack
 
 from qe import arguments
-from qe.api.eliminate import decided, region_of
+from qe.api.eliminate import decided, instance, region_of
 from qe.api.input import AnyFormula, read_block, warned
 from qe.api.limits import limits_of, performed, posed
-from qe.api.settings import ProvedBlock, ProvedQuestion, Question, with_settings
+from qe.api.settings import ProvedBlock, ProvedQuestion, with_settings
 from qe.decomposition.extended_tarski import true_everywhere
 from qe.decomposition.pieces import readable
 from qe.engine.run import solve as eliminated
 from qe.errors import InternalError, Unable
-from qe.exact.number import ExactPoint, Values
+from qe.exact.number import Values
 from qe.formula.build import conj, exists, forall, iff, implies
 from qe.formula.counting import without_root_atoms
 from qe.formula.normal import without_clashes
@@ -154,10 +153,8 @@ def find(formula: AnyFormula, n: int = 1, *, seed: int = 0, **settings: Unpack[P
     return performed(work, given, limits)
 
 
-@with_settings(Question)
-def find_instances(formula: AnyFormula, n: int, *, seed: int = 0, **settings: Unpack[Question]) -> list[Values]:
-    """As ``find``, without ``check``: the older name."""
-    return find(formula, n, seed=seed, **cast(ProvedQuestion, {**settings, "check": False}))
+find_instances = find
+"""The older name of ``find``."""
 
 
 def _found(given: Formula, count: int, seed: int, check: bool, inner: Limits, budget: Budget) -> list[Values]:
@@ -167,13 +164,11 @@ def _found(given: Formula, count: int, seed: int, check: bool, inner: Limits, bu
             raise Unable(f"the points are not proved: {region.reason}")
         return different_points(region, count, seed, budget)
     answer = decided(exists(given.free, given), Options(certify=check), budget)
-    if answer.truth is False:
+    if (point := instance(answer, given)) is None:
         return []
-    if answer.witness is None and given.free:
-        raise Unable("the formula is satisfiable, but no point was found")
     if check and answer.guarantee is not Guarantee.CHECKED:
         raise Unable(f"the point is not proved: {answer.reason}")
-    return [ExactPoint({name: (answer.witness or {}).get(name, Fraction(0)) for name in given.free})]
+    return [point]
 
 
 @with_settings(ProvedBlock)

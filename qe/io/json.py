@@ -75,16 +75,12 @@ def _encode(formula: Formula) -> object:
             return {"atom": _poly(poly), "relation": relation.value}
         case RootAtom(variable, relation, poly, k):
             return {"root": _poly(poly), "variable": variable, "relation": relation.value, "k": k}
-        case And(args):
-            return {"and": [_encode(arg) for arg in args]}
-        case Or(args):
-            return {"or": [_encode(arg) for arg in args]}
+        case And(args) | Or(args):
+            return {"and" if isinstance(formula, And) else "or": [_encode(arg) for arg in args]}
         case Not(arg):
             return {"not": _encode(arg)}
-        case Exists(variables, body):
-            return {"exists": list(variables), "body": _encode(body)}
-        case ForAll(variables, body):
-            return {"forall": list(variables), "body": _encode(body)}
+        case Exists(variables, body) | ForAll(variables, body):
+            return {"exists" if isinstance(formula, Exists) else "forall": list(variables), "body": _encode(body)}
         case _:
             unknown: Never = formula  # mypy holds the cases against all kinds
             raise InputError(f"not a formula: {unknown!r}")

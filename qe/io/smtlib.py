@@ -125,10 +125,8 @@ def _term(formula: Formula, names: Names) -> str:
             if relation is Relation.NE:
                 return f"(not (= {_polynomial(parts, names)} 0))"
             return f"({_OPERATORS[relation]} {_polynomial(parts, names)} 0)"
-        case And(args):
-            return f"(and {' '.join(_term(arg, names) for arg in args)})"
-        case Or(args):
-            return f"(or {' '.join(_term(arg, names) for arg in args)})"
+        case And(args) | Or(args):
+            return f"({'and' if isinstance(formula, And) else 'or'} {' '.join(_term(arg, names) for arg in args)})"
         case Not(arg):
             return f"(not {_term(arg, names)})"
         case Exists(variables, body) | ForAll(variables, body):

@@ -21,6 +21,7 @@ from qe.exact.algebraic import RealAlgebraic
 from qe.formula.syntax import TRUE
 from qe.io.text import read
 from qe.options import Budget, Method
+from qe.processes.channel import Channel
 from qe.processes.execution import perform
 from qe.processes.limits import Limits
 from qe.processes.worker import end_idle
@@ -333,7 +334,7 @@ def test_reading() -> None:
     assert asked == [(read("x > 0"), "text", True)]
 
 
-def asked(method: Method, budget: Budget) -> Answer:
+def asked(method: Method, channel: Channel) -> Answer:
     if method is Method.CAD:
         return Answer(Status.SOLVED, read("x > 0"))
     return Answer(Status.UNABLE, None, reason="not mine")
