@@ -539,3 +539,10 @@ def test_questions_that_are_not_clear_are_refused(typed: str) -> None:
 
 def test_solutions_for_what_is_asked() -> None:
     assert str(qe.solve("for which m does x^2 - 2mx + m = 0 have a solution?")) == "m <= 0 or\nm >= 1"
+
+
+@each(("1 - 2", "false"), ("0*x", "true"), ("3/2, 1/2", "false"))
+def test_witnesses_said_that_terms_alone_end_too_early(typed: str, truth: str) -> None:
+    """They are equations with zero for all doors."""
+    with pytest.raises(qe.InputError, match=f"the formula is {truth} as it stands"):
+        qe.witnesses(typed)
