@@ -8,21 +8,24 @@ cell is small enough. Nothing here is believed: sentences speak of the formulas 
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
 from functools import partial
 from itertools import groupby
 from math import ceil, comb
+from operator import mul
+from typing import Any
 
 import qe
-from bezier.obstacles.obstacle import Constraint
+from bezier.curves.scalar import dot, subtract
+from bezier.obstacles.obstacle import Constraint, Exponents
 from bezier.scenes.barrier import Wall
 from bezier.scenes.cells import Cell, FreeCells, Point, Side
 from bezier.scenes.outlines import outlines
 from bezier.scenes.scene import Scene, of_sides
 from bezier.scenes.sentences import NAMES, along, cell_of, coordinates, taken
-from bezier.scenes.solid import ZERO, Solid, directions
+from bezier.scenes.solid import ZERO, Solid, directions, short_between
 from qe.errors import Unable
 from qe.exact.field import FieldElement
 from qe.exact.polynomial_system import solve_system
@@ -30,6 +33,11 @@ from qe.exact.ring import Poly
 from qe.formula.syntax import Atom
 from qe.options import Budget
 
+UNITS = ((1, 0, 0), (0, 1, 0), (0, 0, 1))
+TURNS = 16384
+"""Of entries of normals that are rounded, the largest."""
+SURE = 1e-12
+"""What floating point may be wrong by, as a part of the terms that are added."""
 SMALLEST, SMALL, MOST_CELLS, ONE = Fraction(1, 2**24), Fraction(1, 200), 1_500, Fraction(1)
 """Of cells, as parts of the workspace; from SMALL on places are looked for where formulas touch."""
 LENGTHS = Fraction(1, 16), Fraction(1, 256), Fraction(1, 4096)
@@ -82,7 +90,7 @@ def decomposed(scene: Scene, fine: int, budget: Budget, even: Fraction = ONE) ->
             mixed = [(cell, left_of(cell)) for cell, _ in mixed]
         split = {k for k, (cell, _) in enumerate(mixed) if _width(cell) > even * wide}
         split = split or _between(scene, free, [cells for _, cells in mixed], around)
-        waiting = [half for k in sorted(split) for half in _parts(mixed[k][0])]
+        waiting = [half for k in sorted(split) for half in _parts(scene, mixed[k][0])]
         mixed = [entry for k, entry in enumerate(mixed) if k not in split]
         if len(mixed) + len(waiting) > MOST_CELLS or any(_width(cell) < SMALLEST * wide for cell in waiting):
             raise Unable("undecided: a path along the boundary of a formula may exist, which small cells do not decide")
@@ -172,11 +180,14 @@ def _across(scene: Scene, place: Sequence[FieldElement], wide: Fraction) -> Iter
 
 def _planes(scene: Scene) -> Iterator[Side]:
     """Of the linear conditions."""
-    conditions = (c for body in scene.formulas for piece in body.pieces for c in piece)
-    for c in dict.fromkeys(c for c in conditions if c.degree == 1):
+    for c in (c for c in _conditions(scene) if c.degree == 1):
         terms = dict(c.terms)
-        normal = tuple(terms.get(tuple(int(i == k) for i in range(3)), ZERO) for k in range(3))
-        yield normal[: scene.dimension], -terms.get((0, 0, 0), ZERO)
+        yield tuple(terms.get(key, ZERO) for key in UNITS[: scene.dimension]), -terms.get((0, 0, 0), ZERO)
+
+
+def _conditions(scene: Scene) -> list[Constraint]:
+    """Of all formulas, each once."""
+    return list(dict.fromkeys(c for body in scene.formulas for piece in body.pieces for c in piece))
 
 
 def _between(scene: Scene, free: Sequence[Cell], mixed: Sequence[Sequence[Cell]], walls: Sequence[Cell]) -> set[int]:
@@ -196,22 +207,40 @@ def _between(scene: Scene, free: Sequence[Cell], mixed: Sequence[Sequence[Cell]]
     return split
 
 
-def _parts(cell: Cell) -> list[Cell]:
-    """The cell halved across each axis."""
+def _parts(scene: Scene, cell: Cell) -> list[Cell]:
+    """The cell cut in halves, and these again: in the plane along the curve of a condition that is open there, if that
+    is nearly straight, so that cells lie along narrow passages; or else across the longest side."""
     parts = [cell]
-    for axis, (low, high) in enumerate(zip(*_ends(cell), strict=True)):
-        side = tuple(Fraction(k == axis) for k in range(len(cell.corners[0]))), (low + high) / 2
-        parts = [half for part in parts for half in part.cut(side) if half is not None]
+    for _ in range(2):
+        parts = [half for part in parts for half in part.cut(_cut_through(scene, part)) if half is not None]
     return parts
 
 
-def _ends(cell: Cell) -> tuple[Point, Point]:
-    axes = list(zip(*cell.corners, strict=True))
+def _cut_through(scene: Scene, cell: Cell) -> Side:
+    """Found in floating point, which decides nothing about cells."""
+    low, high = _ends(cell.floats)
+    sizes, least = [b - a for a, b in zip(low, high, strict=True)], 1.0
+    normal = tuple(Fraction(k == sizes.index(max(sizes))) for k in range(len(sizes)))
+    for c in _conditions(scene) if len(sizes) == 2 else ():
+        try:
+            slopes, values, rest = _about({powers: float(x) for powers, x in c.terms}, cell.floats)
+        except OverflowError:
+            continue
+        bent, change = sum(map(abs, rest.values())), max(values) - min(values)
+        if min(values) - bent < 0 < max(values) + bent and bent < least * change:
+            normal, least = tuple(Fraction(round(s / max(map(abs, slopes)) * TURNS)) for s in slopes), bent / change
+    levels = [Fraction(dot(normal, p)) for p in cell.corners]
+    first, last = min(levels), max(levels)
+    return normal, short_between((first * 9 + last * 7) / 16, (first * 7 + last * 9) / 16)
+
+
+def _ends(corners: Sequence[Sequence[Any]]) -> tuple[tuple[Any, ...], tuple[Any, ...]]:
+    axes = list(zip(*corners, strict=True))
     return tuple(map(min, axes)), tuple(map(max, axes))
 
 
 def _width(cell: Cell) -> Fraction:
-    return max(b - a for a, b in zip(*_ends(cell), strict=True))
+    return max(b - a for a, b in zip(*_ends(cell.corners), strict=True))
 
 
 def _owners(scene: Scene, cell: Cell) -> tuple[int, ...] | None:
@@ -234,21 +263,45 @@ def _owners(scene: Scene, cell: Cell) -> tuple[int, ...] | None:
 
 
 def _span(condition: Constraint, cell: Cell) -> tuple[Fraction, Fraction]:
-    """Numbers below and above a polynomial on a cell: the values at the corners where it is linear, or else of its
-    Taylor form about the centre of the box around."""
+    """Numbers below and above a polynomial on a cell: those of its linear part at the corners, and of the rest. In
+    floating point where their signs are clear."""
     if condition.degree < 2:
-        values = [condition.value((*p, ZERO)[:3]) for p in cell.corners]
-        return min(values), max(values)
-    terms = dict(condition.terms)
-    for axis, (a, b) in enumerate(zip(*_ends(cell), strict=True)):
-        middle, half, moved = (a + b) / 2, (b - a) / 2, dict[tuple[int, ...], Fraction]()
-        for powers, c in terms.items():
+        exact = [condition.value((*p, ZERO)[:3]) for p in cell.corners]
+        return min(exact), max(exact)
+    far = max(1.0, *(abs(c) for p in cell.floats for c in p))
+    try:
+        rough = {powers: float(c) for powers, c in condition.terms}
+        error = SURE * sum(abs(c) * far ** sum(powers) for powers, c in rough.items())
+        low, high = _bounds(rough, cell.floats)
+        if min(abs(low), abs(high)) > error:
+            return Fraction(low), Fraction(high)
+    except OverflowError:
+        pass
+    return _bounds(dict(condition.terms), cell.corners)
+
+
+def _bounds(terms: Mapping[Exponents, Any], corners: Sequence[Sequence[Any]]) -> tuple[Any, Any]:
+    _, values, rest = _about(terms, corners)
+    even = {powers for powers in rest if not any(n % 2 for n in powers)}
+    below = sum((min(c, 0) if powers in even else -abs(c) for powers, c in rest.items()), min(values))
+    return below, sum((max(c, 0) if powers in even else abs(c) for powers, c in rest.items()), max(values))
+
+
+def _about(
+    terms: Mapping[Exponents, Any], corners: Sequence[Sequence[Any]]
+) -> tuple[list[Any], list[Any], dict[Exponents, Any]]:
+    """Of a polynomial about the centre of the box around points: the slopes, the values of the linear part at these,
+    and the other terms in coordinates that are -1 to 1 on the box."""
+    rest, ends = dict(terms), list(zip(*_ends(corners), strict=True))
+    middles, halves = [(a + b) / 2 for a, b in ends], [(b - a) / 2 for a, b in ends]
+    for axis, (middle, half) in enumerate(zip(middles, halves, strict=True)):
+        moved = dict[Exponents, Any]()
+        for powers, c in rest.items():
             n = powers[axis]
             for k in range(n + 1):
                 key = (*powers[:axis], k, *powers[axis + 1 :])
-                moved[key] = moved.get(key, ZERO) + c * comb(n, k) * middle ** (n - k) * half**k
-        terms = moved
-    centre = terms.pop((0, 0, 0), ZERO)
-    even = {powers for powers in terms if not any(n % 2 for n in powers)}
-    below = sum((min(c, ZERO) if powers in even else -abs(c) for powers, c in terms.items()), centre)
-    return below, sum((max(c, ZERO) if powers in even else abs(c) for powers, c in terms.items()), centre)
+                moved[key] = moved.get(key, 0) + c * comb(n, k) * middle ** (n - k) * half**k
+        rest = moved
+    level = rest.pop((0, 0, 0), 0)
+    slopes = [rest.pop(key, 0) / half for key, half in zip(UNITS, halves, strict=False)]
+    return slopes, [sum(map(mul, slopes, subtract(p, middles)), level) for p in corners], rest

@@ -323,7 +323,7 @@ def _by_cells(scene: Scene, budget: Budget) -> Route | Blocked:
     except BudgetExceeded:
         raise
     except Unable:
-        known = next((known for count in (2, 3) if (known := _divided(scene, budget, count)) is not None), None)
+        known = next((known for count in range(2, 7) if (known := _divided(scene, budget, count)) is not None), None)
         if known is None:
             raise
         return known
