@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
 from pathlib import Path
@@ -11,6 +11,7 @@ from typing import Any
 import qe
 from bezier.arm.model import Arm
 from bezier.arm.tip import tip_of
+from bezier.curves.curve import Bezier
 from bezier.curves.sentences import verified
 from bezier.input import stored
 from bezier.input.numbers import describe
@@ -90,8 +91,17 @@ def in_the_way(scene: Scene, axes: int) -> tuple[list[Obstacle], list[Limit]]:
     if is_box and scene.dimension == axes:
         ends = enumerate(zip(scene.low, scene.high, strict=True)) if sides else ()
         return obstacles, [Limit(0, k, high, low) for k, (low, high) in ends]
-    outside = Obstacle("the outside of the workspace", ObstacleKind.FORMULA, tuple(map(Piece, beyond(scene))))
-    return [*obstacles, *([outside] if outside.pieces else [])], []
+    return [*obstacles, *outside(scene)], []
+
+
+def outside(scene: Scene, near: Fraction = Fraction(0)) -> list[Obstacle]:
+    """What is outside of a workspace, or less than ``near`` inside, if there is one."""
+    pieces = tuple(map(Piece, beyond(scene, near)))
+    return [Obstacle("the outside of the workspace", ObstacleKind.FORMULA, pieces)] if pieces else []
+
+
+def _curves(moving: Trajectory) -> Iterator[tuple[int, Bezier]]:
+    return enumerate(map(moving.curve, range(len(moving.pieces))), start=1)
 
 
 def certify(
@@ -159,21 +169,20 @@ class Certified:
             limits = [*limits, *arm_limits(robot, trajectory)]
         scene, findings, links = None, None, None
         if table is not None and robot is not None:
-            if "domain" in table.values:
-                raise table.error("domain", "none with --robot (obstacles around it)", "one")
             scene = scene_of(table, tip_of(robot, trajectory, NEAR), NEAR)
             bodies = [(b.name, b.body) for b in scene.bodies if b.body is not None]
             if len(bodies) < len(scene.bodies):
                 raise table.error("obstacle", "bodies with --robot", "one that is none")
+            if scene.holes:
+                raise table.error("domain", "a convex one with --robot", "one with a hole")
             links = Links.of(robot, trajectory, bodies)
+            ends = {f"piece {i}, frame {k}": c for k, frame in links.frames.items() for i, c in _curves(frame)}
+            findings = survey.survey(ends, outside(scene, NEAR), distances=False) if scene.domain else None
         elif table is not None:
             scene = scene_of(table, trajectory)
             obstacles, inside = in_the_way(scene, len(trajectory.names))
-            limits, listed = (
-                [*limits, *inside],
-                enumerate(map(trajectory.curve, range(len(trajectory.pieces))), start=1),
-            )
-            findings = survey.survey({f"piece {i}": curve for i, curve in listed}, obstacles, distances=False)
+            limits = [*limits, *inside]
+            findings = survey.survey({f"piece {i}": c for i, c in _curves(trajectory)}, obstacles, distances=False)
         near = None if path is None else Along.of(trajectory, path, within, robot)
         return Certified(decided(trajectory, limits, tolerance), findings, near, scene, links)
 
@@ -197,15 +206,17 @@ class Certified:
     def lines(self) -> list[str]:
         """A line for each limit, each contact, and what follows."""
         lines, contacts = in_words(self.verdict), survey.contacts(self.findings or ())
-        moved = self.verdict.trajectory
+        moved = self.verdict.trajectory if self.links is None else next(iter(self.links.frames.values()))
         times = {f"piece {i}": span for i, span in enumerate(zip(moved.breaks, moved.lengths, strict=False), start=1)}
         for f in contacts:
-            start, length = times[f.name]
+            start, length = times[f.name.partition(",")[0]]
             time = start + length * sum(f.outcome.t) / 2 if isinstance(f.outcome, Contact) else start
             lines.append(f"{survey.in_words(f)}, at the time {float(time):.10g}")
-        if self.findings and not contacts:
+        if self.findings and not contacts and self.links is not None:
+            lines.append("links, the segments between origins of frames: inside the domain for all t")
+        elif self.findings and not contacts:
             lines.append(f"clear of all obstacles for all t: {len(self.findings)} pairs of pieces and obstacles")
-        lines += [] if self.links is None else self.links.lines
+        lines += [] if self.links is None or not self.links.spans else self.links.lines
         return lines if self.along is None else [*lines, self.along.line]
 
     def __str__(self) -> str:

@@ -21,6 +21,8 @@ from bezier.arm.robot import Robot
 from bezier.arm.tip import frames_of, is_fixed
 from bezier.cli import main
 from bezier.pictures.distance import signed_distances
+from bezier.scenes.scene import load_table
+from bezier.trajectories.command import Certified
 from bezier.trajectories.links import NEAR, Links, Span, Touch
 from bezier.trajectories.objects import from_scipy
 from qe.errors import InputError
@@ -79,6 +81,48 @@ def test_a_ball_is_met_when_it_grows_by_a_hundredth(side: int) -> None:
     assert result.kept is (side < 0) and ("first at the time" in str(result)) is (side > 0)
     result.check(qe.Certificate.from_json(result.certificate.to_json()))
     assert "distance from ball 1" in result.page()
+
+
+DOMAINS = {
+    "a ball": ({"kind": "ball", "centre": [0, 0, 0], "radius": "R"}, lambda p: np.linalg.norm(p, axis=-1)),
+    "a box": ({"low": [-300, -300, -300], "high": [300, "R", 300]}, lambda p: p[..., 1]),
+    "a slanted side": (
+        [{"low": [-300] * 3, "high": [300] * 3}, {"kind": "half_space", "normal": [3, 4, 0], "offset": "R"}],
+        lambda p: p @ [3, 4, 0],
+    ),
+    "a tube": (
+        {"kind": "cylinder", "centre": [10, 0], "radius": "R", "bottom": -300, "top": 300},
+        lambda p: np.linalg.norm(p[..., :2] - [10, 0], axis=-1),
+    ),
+}
+
+
+@pytest.mark.parametrize("name", DOMAINS)
+def test_links_stay_in_a_convex_domain_that_samples_stay_in(name: str, tmp_path: Path) -> None:
+    domain, level = DOMAINS[name]
+    reached = max(level(np.array(skeleton(load_arm("planar-3r"), SMALL(t)))).max() for t in np.linspace(0, 2, 2001))
+    for side in (1, -1):
+        text = json.dumps({"domain": domain}).replace('"R"', repr(float(reached) + side / 100))
+        (tmp_path / "scene.json").write_text(text)
+        table, trajectory = load_table(tmp_path / "scene.json"), from_scipy(SMALL)
+        result = Certified.of(trajectory, [], table, F(1, 10**9), load_arm("planar-3r"))
+        assert result.kept is (side > 0), str(result)
+        assert ("inside the domain for all t" in str(result)) is (side > 0)
+        assert ("enters the outside of the workspace" in str(result)) is (side < 0)
+        result.check(qe.Certificate.from_json(result.certificate.to_json()))
+        assert "planar" in result.page("planar")
+        other = Certified.of(trajectory, [], None, F(1, 10**9), load_arm("planar-3r"))
+        with pytest.raises((qe.CertificateRejected, qe.Unable)):
+            result.check(other.certificate)
+
+
+def test_a_domain_with_a_hole_is_refused_for_links(tmp_path: Path) -> None:
+    """Both ends of a link may be in it, and its middle in the hole."""
+    hole = {"kind": "annulus", "centre": [0, 0], "inner": 10, "outer": 900, "bottom": -900, "top": 900}
+    (tmp_path / "scene.json").write_text(json.dumps({"domain": hole}))
+    with pytest.raises(InputError, match="convex"):
+        table = load_table(tmp_path / "scene.json")
+        Certified.of(from_scipy(SMALL), [], table, F(1, 10**9), load_arm("planar-3r"))
 
 
 def test_a_contact_of_a_link_that_begins_at_the_base_has_a_certificate() -> None:
