@@ -37,9 +37,8 @@ def retime(
 
     ``path``: what ``bezier.certify`` takes; only its places count, not its times. Where its direction jumps the motion
     stops. The limits are those of ``bezier.certify``; one of the acceleration is needed. ``law``: ``"cubic"``,
-    ``"quintic"`` or ``"trapezoid"`` in place of the fastest motion; with a limit of jerk ``"quintic"``, while the bound
-    leaves jerk aside. ``accuracy``: the share above the bound at which
-    the search stops.
+    ``"quintic"`` or ``"trapezoid"`` in place of the fastest motion; where jerk is limited that is averaged over some
+    time, and the bound leaves jerk aside. ``accuracy``: the share above the bound at which the search stops.
 
     The result says ``duration``, ``bound`` (no motion takes less; both exact), ``trajectory``, ``certificate``;
     ``to_csv()`` is a file for ``bezier certify``, ``page()`` a page with charts. All limits are kept for all t.

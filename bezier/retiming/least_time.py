@@ -17,6 +17,7 @@ from bezier.retiming.bound import Weights, bound, weights
 from bezier.retiming.grid import Bounds, Grid, even, stops_of
 from bezier.retiming.law import Step, fastest, is_motion, timed, usual
 from bezier.retiming.proposals import Proposal, proposal
+from bezier.retiming.smooth import smooth, speedings
 from bezier.trajectories.evidence import claims, exceeding, refuted, whole
 from bezier.trajectories.limits import Limit, Verdict, decided
 from bezier.trajectories.piecewise import QUANTITIES, Trajectory
@@ -151,8 +152,8 @@ def least_time(
     accuracy: Fraction = ACCURACY,
 ) -> LeastTime:
     """The fastest motion along a path from rest to rest, at most ``accuracy`` above the bound where that is within
-    reach. ``law``: one with a formula, in its own least time; the quintic one where jerk is limited, which the bound
-    leaves aside. Raises ``InputError`` and ``Unable``."""
+    reach. ``law``: one with a formula, in its own least time. Limits of jerk are kept, too, which the bound leaves
+    aside. Raises ``InputError`` and ``Unable``."""
     try:
         return _least_time(path, limits, law, accuracy, budget or Budget())
     except OverflowError:
@@ -161,10 +162,9 @@ def least_time(
 
 def _least_time(path: Trajectory, limits: Sequence[Limit], law: Law, accuracy: Fraction, budget: Budget) -> LeastTime:
     bounds = Bounds.of(limits, len(path.names))
-    if any(limit.order > 2 for limit in limits):
-        if law not in (Law.LEAST, Law.QUINTIC):
-            raise InputError(f"law: expected quintic with a limit of jerk, found {law.value}, whose jerk is infinite")
-        law = Law.QUINTIC
+    has_jerk = any(limit.order > 2 for limit in limits)
+    if has_jerk and law not in (Law.LEAST, Law.QUINTIC):
+        raise InputError(f"law: expected least or quintic with a limit of jerk, found {law.value}, of infinite jerk")
     path = even(path)
     grid, given = _proposals(Grid.of(path), bounds, float(accuracy), budget)
     proved = tuple(weights(grid, given))
@@ -172,8 +172,11 @@ def _least_time(path: Trajectory, limits: Sequence[Limit], law: Law, accuracy: F
     if seconds <= 0:
         raise Unable("the proposed multipliers prove nothing")
     speeds = np.sqrt(given.squares)
+    parts = speedings(grid, speeds, limits) if has_jerk and law is Law.LEAST else []
 
     def motion(slower: Fraction) -> tuple[Step, ...]:
+        if parts:
+            return smooth(parts, slower)
         return fastest(grid, speeds / float(slower)) if law is Law.LEAST else usual(path, law, seconds * slower)
 
     steps, verdict = _keeping(grid, limits, motion, 1 + MARGIN if law is Law.LEAST else Fraction(1))

@@ -129,17 +129,42 @@ def test_a_law_with_a_formula_takes_its_own_least_time(law: str, peak: float) ->
 
 
 def test_a_limit_of_jerk_is_kept_and_the_bound_is_that_without_it() -> None:
-    line = bezier.retime(path([[0, 10]]), velocity=100, acceleration=100, jerk=75)
+    limits = {"velocity": 100, "acceleration": 100, "jerk": 75}
+    line = bezier.retime(path([[0, 10]]), **limits, law="quintic")
     assert float(line.duration) == pytest.approx(2, rel=1e-5)  # 60 * 10 / T^3 = 75
+    least = bezier.retime(path([[0, 10]]), **limits)
+    assert (32 * 10 / 75) ** (1 / 3) < float(least.duration) < 1.97  # with jerk as large as can be: 1.62
     curve, limits = path([[0, 3, -1], [0, 1, 2, -1]]), {"velocity": 1, "acceleration": 2}
     motion = bezier.retime(curve, **limits, jerk=F(1, 2), jerk_norm=1)
     kept(motion, {**limits, "jerk": 0.5, "jerk_norm": 1})
-    assert motion.duration > bezier.retime(curve, **limits, law="quintic").duration
     assert motion.verdict.is_kept and motion.bound == bezier.retime(curve, **limits).bound < motion.duration
     with pytest.raises(InputError, match="acceleration jumps"):  # q'' does, at the break
         bezier.retime(path([[0, 1]], [[1, 1, 1]]), **limits, jerk=1)
-    with pytest.raises(InputError, match="expected quintic with a limit of jerk"):
+    with pytest.raises(InputError, match="expected least or quintic with a limit of jerk"):
         bezier.retime(curve, **limits, jerk=20, law="trapezoid")
+
+
+@each((7, 3), (8, 6), daily=1)
+def test_with_a_limit_of_jerk_the_time_is_near_the_bound_without_it(seed: int, axes: int) -> None:
+    """It was that of the quintic law, twice as much."""
+    limits = {"velocity": 1, "acceleration": 2, "jerk": 20}
+    curve = spline(np.random.default_rng(seed).uniform(-1, 1, (8, axes)))
+    motion = bezier.retime(curve, **limits)
+    kept(motion, limits)
+    assert motion.bound < motion.duration < motion.bound * F(115, 100)
+    quintic = bezier.retime(curve, **limits, law="quintic")
+    assert motion.duration * F(3, 2) < quintic.duration
+    motion.check(qe.Certificate.from_json(motion.certificate.to_json()))
+    other = replace(motion, steps=(replace(motion.steps[0], duration=motion.steps[0].duration * 2), *motion.steps[1:]))
+    with pytest.raises(CertificateRejected):
+        other.check(motion.certificate)
+
+
+def test_a_motion_with_a_limit_of_jerk_rests_at_corners() -> None:
+    """The quintic law cannot."""
+    motion = bezier.retime(path([[0, 1], [0]], [[1], [0, 1]]), acceleration=2, velocity=1, jerk=50)
+    kept(motion, {"velocity": 1, "acceleration": 2, "jerk": 50})
+    assert motion.duration < motion.bound * F(108, 100) and len(motion.steps) > 100
 
 
 @each(
