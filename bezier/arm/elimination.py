@@ -61,8 +61,7 @@ class Reduction:
 
 @dataclass(frozen=True, eq=False)
 class Geometry:
-    """One arm for the derivation above; ``f``: f0, f1, f2 with v = f0 + cos θ f1 + sin θ f2, or f0, f1 with
-    v = f0 + t f1."""
+    """One arm; ``f``: f0, f1, f2 with v = f0 + cos θ f1 + sin θ f2, or f0, f1 with v = f0 + t f1."""
 
     arm: Arm
     chain: ArmChain

@@ -86,8 +86,7 @@ ATTEMPTS = (16, 40, 100, 250)
 
 
 def motions_certificate(motions: ContinuousMotions) -> Certificate:
-    """The certificate that these are all continuous motions, accepted by the checker. Raises ``Unable`` where there is
-    none."""
+    """The certificate that these are all continuous motions, accepted. Raises ``Unable`` where there is none."""
     factors = [[(s, _factor(signs, s)) for s in signs.places] for signs in motions.curves]
 
     def payloads() -> Iterator[dict[str, Json]]:

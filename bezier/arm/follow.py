@@ -115,8 +115,7 @@ def whole(
     ends: tuple[Fraction, Fraction],
     stops: Sequence[Fraction] = (),
 ) -> Branch | None:
-    """The branch through a solution at ``at``, followed both ways towards ``ends``; None where not even one step is
-    proved."""
+    """The branch through a solution at ``at``, followed both ways to ``ends``; None where no step is proved."""
     start = [angle for angle in solution.angles if angle is not None]
     if len(start) != len(arm.joints):
         return None
@@ -127,8 +126,7 @@ def whole(
 
 
 def joined(one: ProvedPiece, other: ProvedPiece) -> bool:
-    """Whether the solution at the end of one curve is the one at the beginning of the next (which begins where that
-    ends)."""
+    """Whether the solution at the end of one curve is the one where the next begins."""
     return _same(one, ONE, other, ZERO)
 
 

@@ -67,8 +67,7 @@ class JointPath:
 
     @cached_property
     def count(self) -> int | None:
-        """The number of all continuous motions from start to goal, limits of the joints left aside; None where it is
-        not decided."""
+        """The number of all continuous motions from start to goal, without limits; None where it is not decided."""
         if self.motions is not None:
             return self.motions.count
         if any(0 in (*(p.count for p in s.stretches), *(p.inverse.count for p in s.specials)) for s in self.studies):
@@ -122,8 +121,7 @@ class JointPath:
 
     @cached_property
     def kept_numbers(self) -> frozenset[int]:
-        """The numbers of the motions from start to goal that keep the limits: of those that are listed or held by
-        boxes."""
+        """The numbers of the motions from start to goal that keep the limits, listed or held by boxes."""
         listed = {run.number for run in self.covering_runs} | {*(() if self.limited is None else self.limited.listed)}
         return frozenset(listed - {*self.excesses})
 

@@ -1,5 +1,4 @@
-"""From a path to a motion of the joints: the study, the sequence of least change, the time law with its proved limits,
-the files."""
+"""From a path to a motion of the joints: study, sequence of least change, time law with proved limits, files."""
 
 from __future__ import annotations
 
@@ -163,8 +162,7 @@ def _bounds(value: Enclosure) -> list[float]:
 
 
 def animation(plan: JointPlan) -> str:
-    """What the moving picture needs, as JSON text: frames with the points of the arm (mm) and its angles, and the
-    path."""
+    """What the moving picture needs, as JSON text: the path, and frames with points (mm) and angles of the arm."""
     assert plan.sequence is not None, "only plans with a sequence move"
     arm, sequence = plan.path.arm, plan.sequence
     step = max(1, len(sequence.angles) // FRAMES)

@@ -4,11 +4,7 @@ A modified row is Rx(alpha) Tx(a) Rz(theta) Tz(d), a standard one Rz(theta) Tz(d
 Introduction to Robotics, section 3.5; J. Denavit, R. S. Hartenberg 1955). One of theta (revolute) and d (prismatic) of
 a row may vary. Lengths are in millimetres, angles in radians. All constants are exact, in one field of real algebraic
 numbers.
-
-Exact angles: rational multiples of pi whose cosine and sine lie in Q(sqrt 2, sqrt 3), and angles given by these two.
-
-Only with such constants is the system of an arm polynomial with exact coefficients in the cosines and sines of its
-joints.
+Exact angles are rational multiples of pi whose cosine and sine lie in Q(sqrt 2, sqrt 3), and those given by these two.
 """
 
 from __future__ import annotations

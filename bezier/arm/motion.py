@@ -20,6 +20,7 @@ from bezier.curves import bernstein as bs
 from bezier.curves.enclosure import Enclosure
 from bezier.motion.timelaw import TICK, TimeLaw
 from qe.errors import Unable
+from qe.exact.rational_poly import RationalPoly
 
 Range = tuple[Fraction, Fraction]
 ZERO = Fraction(0)
@@ -28,8 +29,7 @@ SHORT = Fraction(1, 1 << 30)
 
 @dataclass(frozen=True, slots=True)
 class JointMotion:
-    """``speeds`` and ``accelerations``: one extreme for each joint (rad/s, rad/s²), for a motion that takes
-    ``duration`` s."""
+    """One extreme of each joint (rad/s, rad/s²), for a motion that takes ``duration`` s."""
 
     joints: tuple[Joint, ...]
     duration: Fraction
@@ -98,16 +98,13 @@ def _timed(run: Run, law: TimeLaw, ends: Sequence[Fraction]) -> Iterator[tuple[P
             for (low, high), p in zip(pairwise(law.breaks), law.polynomials, strict=True):
                 a, b = max(begin, low), min(end, high)
                 if a < b or begin == end:
-                    slope = bs.power_derivative(p)
-                    bend = bs.power_derivative(slope)
-                    yield piece, _range(slope, a, b, 1 / length), _range(bend, a, b, 1 / length)
+                    slope = p.derivative()
+                    yield piece, _range(slope, a, b, 1 / length), _range(slope.derivative(), a, b, 1 / length)
 
 
-def _range(p: Sequence[Fraction], low: Fraction, high: Fraction, factor: Fraction) -> Range:
+def _range(p: RationalPoly, low: Fraction, high: Fraction, factor: Fraction) -> Range:
     """An interval around factor * p on [low, high]: its Bernstein coefficients there."""
-    if not p:
-        return ZERO, ZERO
-    values = [factor * c for c in bs.restrict(bs.from_power(tuple(p)), low, high)]
+    values = [factor * c for c in bs.restrict(bs.from_power(p.coefficients()), low, high)]
     return min(values), max(values)
 
 

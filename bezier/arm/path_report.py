@@ -178,8 +178,7 @@ def short(s: Place) -> str:
 
 
 def to_json(path: JointPath) -> dict[str, Any]:
-    """The path as JSON data: parameters exactly and as decimals, an entry for each curve, the continuous motions, and
-    the runs."""
+    """The path as JSON: parameters exactly and as decimals, each curve, the continuous motions, and the runs."""
     return {
         "arm": path.arm.name,
         "reachable": path.is_reachable,

@@ -88,8 +88,7 @@ def _root(square: Fraction) -> tuple[int, Fraction]:
 # --- real roots ------------------------------------------------------------------------------------------------------
 @dataclass(frozen=True, eq=False)
 class RootPlace(Place):
-    """A real root that is known to any number of digits: the one with this index, of a modulus without multiple
-    roots."""
+    """A real root known to any number of digits: that of this index, of a modulus without multiple roots."""
 
     index: int
 

@@ -43,8 +43,7 @@ class Sample:
 
 @dataclass(frozen=True, slots=True)
 class Stand:
-    """A joint position offered for a sample (rad): ``runs``, the numbers of the continuous motions that it belongs
-    to."""
+    """A joint position offered for a sample (rad); ``runs``: the continuous motions that it belongs to."""
 
     angles: tuple[float, ...]
     runs: frozenset[int]

@@ -76,8 +76,7 @@ class Study:
 
     @property
     def gaps(self) -> tuple[Stretch, ...]:
-        """The stretches without a solution within the limits; their ends are the exact places where the path stops and
-        begins again."""
+        """The stretches without a solution within the limits: their ends are just where the path stops and goes on."""
         return tuple(part for part in self.within if not part.count)
 
 

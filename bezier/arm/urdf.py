@@ -30,7 +30,6 @@ if TYPE_CHECKING:
 
     Floats = NDArray[np.float64]
 
-SUFFIX = ".urdf"
 CLOSE = 1e-3
 """rad: 1.571 is pi/2."""
 

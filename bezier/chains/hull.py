@@ -46,7 +46,6 @@ class Hull:
 
     @property
     def corners(self) -> list[int]:
-        """The numbers of extreme points: those in as many facets as the space has dimensions. Equal points are all
-        listed."""
+        """The numbers of extreme points, in as many facets as the space has dimensions; of equal ones all."""
         on = Counter(i for bits in self.cone.rays.values() for i in range(self.cone.count) if bits >> i & 1)
         return sorted(i for i, count in on.items() if count >= self.cone.size - 1)

@@ -141,8 +141,7 @@ class ChainPlan:
         return region(self.chain, arguments.text(name, "name"), share)
 
     def validity(self, name: str) -> Validity:
-        """By how much a given point may move before there is no chain, from both sides. Raises ``InputError``,
-        ``Unable``."""
+        """By how much a point may move before there is no chain, from both sides. Raises ``InputError``, ``Unable``."""
         return validity(self.chain, arguments.text(name, "name"))
 
     def to_json(self) -> dict[str, Any]:

@@ -98,8 +98,7 @@ def least_radius(given: Chain) -> Repair | None:
 
 
 def nearest(given: Chain, names: Sequence[str]) -> Repair | None:
-    """Which of these points or velocities has to move least, and where to. That no other one could move by less is not
-    proved."""
+    """Which of these points or velocities has to move least, and where to; that it is the one is not proved."""
     start = loosened(given)
     todo = [(0.0 if start is None else start.change(name), False, name) for name in names]
     while todo := sorted(todo):  # first what has to move least; the excess is convex, so slopes give bounds from below

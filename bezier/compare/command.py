@@ -15,7 +15,7 @@ from bezier.compare.comparison import METHODS, Comparison, compare
 from bezier.compare.output import TITLES, Row, duration, notes, rows, step_rows, table, to_json
 from bezier.pictures.picture import Chart
 from bezier.planner import derivations
-from bezier.planner.outputs import COMPARED, COMPARISON
+from bezier.planner.outputs import COMPARED, COMPARISON, write_texts
 from bezier.plans import Clock
 from bezier.problem import Problem
 from bezier.report import html, parts
@@ -147,8 +147,7 @@ def run(
     plots: bool = True,
     timeout: float | None = None,
 ) -> tuple[dict[str, Any], list[str]]:
-    """The comparison, with its files in ``folder`` (whose place will be ``target``) if there is one; what to print, as
-    data and as lines."""
+    """The comparison, with its files in ``folder`` (later ``target``), if any; what to print, as data and as lines."""
     clock = Clock(limit=timeout, listener=channel.event, note=channel.fact)
     result = compare(problem, clock, proofs=folder is not None)
     files, last = list[str](), list[str]()
@@ -175,9 +174,7 @@ def _write(comparison: Comparison, folder: FilePath, target: FilePath, *, plots:
         for name, item in comparison.derivations.items()
     }
     texts = {COMPARED: comparison.certificate.to_json(), **pages}
-    for name, text in texts.items():
-        (folder / name).write_text(text, encoding="utf-8")
-    files = [str(target / name) for name in sorted([*names, *texts])]
+    files = [str(target / name) for name in sorted([*names, *write_texts(folder, texts)])]
     (folder / PAGE).write_text(render(comparison, drawings, first), encoding="utf-8")
     text = json.dumps(to_json(comparison, files), indent=1, ensure_ascii=False)
     (folder / DATA).write_text(text + "\n", encoding="utf-8")

@@ -15,8 +15,8 @@ from bezier.motion.motion import in_time
 from bezier.motion.track import Track
 from bezier.pictures import plot, scene
 from bezier.pictures.mesh import Array
-from bezier.pictures.picture import GRID, INK, Chart, PathPicture, numbers, path_picture
-from bezier.pictures.plot import VIEWS, letter, new_figure, path_view, svg_text
+from bezier.pictures.picture import INK, Chart, PathPicture, numbers, path_picture
+from bezier.pictures.plot import VIEWS, framed, letter, new_figure, path_view, svg_text
 from bezier.problem import PlanMethod
 from bezier.report.first import scene_box
 from bezier.report.parts import GIVEN
@@ -96,10 +96,8 @@ def regions_of(comparison: Comparison) -> Any:
     axis.plot(*np.array([place for _, place in marks]).T, "o", color=INK, markersize=5)
     axis.margins(0.06)
     axis.set_aspect("equal", adjustable="datalim")
-    axis.set_title("where Q₁ may be, in the plane of O, Q₀ and R₀", fontsize=11, color=INK)
-    axis.set_xlabel("along R₀ − Q₀ (mm)")
-    axis.set_ylabel("across (mm)")
-    axis.grid(color=GRID, linewidth=0.6)
+    title = "where Q₁ may be, in the plane of O, Q₀ and R₀"
+    framed(axis, "along R₀ − Q₀ (mm)", "across (mm)", title, size=11)
     axis.set_axisbelow(True)
     plot.place(axis, marks, np.concatenate(list(lines.values())), size=9)
     figure.legend(loc="lower left", bbox_to_anchor=(0.08, 0.0), frameon=False, fontsize=10)

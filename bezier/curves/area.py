@@ -14,8 +14,7 @@ from fractions import Fraction
 
 import qe
 from bezier.curves.enclosure import Enclosure, bounds
-from qe.errors import BudgetExceeded, InputError, Unable
-from qe.options import Budget
+from qe.errors import InputError, Unable
 
 MOST = 2000
 """Abscissae that are used at most."""
@@ -30,47 +29,43 @@ class _Height:
     high: Fraction
 
 
-def convex_area(region: qe.Region, rel: Fraction, *, timeout: float | None = None) -> Enclosure:
+def convex_area(region: qe.Region, rel: Fraction) -> Enclosure:
     """The area of a bounded convex region in two variables, with high - low <= rel * high.
 
-    That the region is convex is for the caller to know. ``timeout`` in seconds. Raises ``InputError`` for an unbounded
-    region, ``Unable`` when the width is not reached, ``BudgetExceeded``, with what is known by then, at the limit.
+    That the region is convex is for the caller to know. Raises ``InputError`` for an unbounded region, ``Unable`` when
+    the width is not reached.
     """
-    budget = Budget(timeout)
     if region.is_empty:
         return Enclosure(Fraction(0), Fraction(0))
-    first, last = region.bounds(region.order[0], timeout=budget.time_left("area"))
+    first, last = region.bounds(region.order[0])
     if first is None or last is None:
         raise InputError("the area of a bounded region can be enclosed only")
     (begin, inner_begin), (inner_end, end) = bounds(first), bounds(last)
     if begin == end or inner_begin >= inner_end:
         return Enclosure(Fraction(0), Fraction(0))
-    return _refined(region, (begin, end), (inner_begin, inner_end), rel, budget)
+    return _refined(region, (begin, end), (inner_begin, inner_end), rel)
 
 
 def _refined(
-    region: qe.Region, outer: tuple[Fraction, Fraction], inner: tuple[Fraction, Fraction], rel: Fraction, budget: Budget
+    region: qe.Region, outer: tuple[Fraction, Fraction], inner: tuple[Fraction, Fraction], rel: Fraction
 ) -> Enclosure:
     """Abscissae are added where the gap between the two bounds is widest."""
     width = inner[1] - inner[0]
-    heights = [_height(region, inner[0] + width * k / 8, budget) for k in range(1, 8)]
+    heights = [_height(region, inner[0] + width * k / 8) for k in range(1, 8)]
     while len(heights) < MOST:
         gaps = _gaps(heights, outer)
         low, high = (sum((g[side] for g in gaps), Fraction(0)) for side in (0, 1))
         if high - low <= rel * high:
             return Enclosure(low, high)
-        if (remaining := budget.remaining()) is not None and remaining <= 0:
-            raise BudgetExceeded(f"time limit reached: area known only between {float(low):.6g} and {float(high):.6g}")
         worst = heapq.nlargest(max(1, len(gaps) // 4), range(len(gaps)), key=lambda k: gaps[k][1] - gaps[k][0])
         edges = [inner[0], *(h.x for h in heights), inner[1]]
-        heights += [_height(region, (edges[k] + edges[k + 1]) / 2, budget) for k in worst]
+        heights += [_height(region, (edges[k] + edges[k + 1]) / 2) for k in worst]
         heights.sort(key=lambda h: h.x)
     raise Unable("the area was not enclosed as narrowly as asked for")
 
 
-def _height(region: qe.Region, x: Fraction, budget: Budget) -> _Height:
-    remaining = budget.remaining()
-    intervals = region.fibre({region.order[0]: x}, timeout=None if remaining is None else max(0.0, remaining))
+def _height(region: qe.Region, x: Fraction) -> _Height:
+    intervals = region.fibre({region.order[0]: x})
     if not intervals:
         return _Height(x, Fraction(0), Fraction(0))
     lower, upper = intervals[0]

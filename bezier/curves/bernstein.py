@@ -4,11 +4,6 @@ A polynomial of degree at most n is the tuple (b_0, ..., b_n) with p(t) = sum_k 
 Facts used (Farouki, "The Bernstein polynomial basis: a centennial retrospective", CAGD 2012, sections 3-5):
 p(0) = b_0, p(1) = b_n; the range of p on [0, 1] lies between min b_k and max b_k; the number of sign changes
 of (b_k) bounds the number of roots in (0, 1) and differs from it by an even number.
-
-Bisection of polynomials in Bernstein form where only signs and quotients matter: integers stay integers.
-
-Halving multiplies all coefficients by 2^degree, so that no division is needed; polynomials of one degree keep their
-quotients.
 """
 
 from __future__ import annotations
@@ -105,12 +100,6 @@ def convolved(a: Sequence[Any], b: Sequence[Any]) -> list[Any]:
     return out
 
 
-def derivative(b: Sequence[Any]) -> Coefficients:
-    """The derivative: n (b_{k+1} - b_k)."""
-    n = len(b) - 1
-    return tuple(n * (y - x) for x, y in pairwise(b)) or (Fraction(0),)
-
-
 def to_power(b: Sequence[Any]) -> Coefficients:
     """Coefficients of 1, t, t^2, ..., without leading zeros (() for the zero polynomial)."""
     n, (numbers, below) = len(b) - 1, _whole(b)
@@ -147,14 +136,6 @@ def trim(p: Sequence[Any]) -> Coefficients:
     while end and is_zero(p[end - 1]):
         end -= 1
     return tuple(p[:end])
-
-
-def power_value(p: Sequence[Any], t: Any) -> Any:
-    """p(t) by Horner's rule."""
-    total: Any = Fraction(0)
-    for c in reversed(p):
-        total = total * t + c
-    return total
 
 
 def power_multiply(a: Sequence[Any], b: Sequence[Any]) -> Coefficients:
@@ -202,10 +183,8 @@ Numbers = tuple[Any, ...]
 
 
 def halves(b: Numbers) -> tuple[Numbers, Numbers]:
-    """Positive multiples of the Bernstein coefficients on [0, 1/2] and [1/2, 1].
-
-    The factor is 2^degree for integers and 1 for other numbers.
-    """
+    """Positive multiples of the Bernstein coefficients on [0, 1/2] and [1/2, 1]: by 2^degree for integers, which stay
+    integers, so that polynomials of one degree keep their quotients, and by 1 for other numbers."""
     if not all(isinstance(c, int) for c in b):
         return split(b)
     n = len(b) - 1

@@ -83,10 +83,6 @@ class Bezier:
         parts = [bs.elevate(self.coordinate(i), degree) for i in range(self.dimension)]
         return Bezier(tuple(zip(*parts, strict=True)))
 
-    def reversed(self) -> Bezier:
-        """The same set of points, run through backwards."""
-        return Bezier(self.points[::-1])
-
     def norm_squared(self) -> bs.Coefficients:
         """|P(t)|^2 in Bernstein form of degree 2n."""
         total: bs.Coefficients = (Fraction(0),)

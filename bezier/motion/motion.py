@@ -1,13 +1,5 @@
 """Quality of a planned path: lengths, curvatures, and the motion along it in time, with limits that are kept or not.
 
-In a problem file::
-
-    [timing]
-    law = "quintic"             # cubic | quintic | trapezoid (then optionally ramp = "1/4") | least
-    duration = 50               # seconds; without it the least time that keeps the limits
-    max_speed = 20              # mm/s, optional
-    max_acceleration = 5        # mm/s^2, optional
-
 Without a motion the time is that of ``path.csv``: each curve takes its duration. With one it is in seconds, and the
 curves composed with the time law are polynomials again: a trajectory, whose largest speed and acceleration are decided
 as by ``bezier certify``. Irrational coordinates are replaced by rational numbers next to them (``BITS``).

@@ -11,15 +11,12 @@ from __future__ import annotations
 from dataclasses import dataclass
 from enum import Enum
 from fractions import Fraction
-from typing import Any
 
-from bezier.curves import bernstein as bs
 from qe.errors import InputError
 from qe.exact.rational_poly import RationalPoly
 
 TICK = Fraction(1, 10**6)
 ZERO, ONE = Fraction(0), Fraction(1)
-Power = tuple[Any, ...]
 
 
 class Law(Enum):
@@ -37,56 +34,50 @@ class Law(Enum):
 
 @dataclass(frozen=True, slots=True)
 class TimeLaw:
-    """A law on [0, 1]: polynomials of tau by ascending powers, each between two breaks. Invariant: increasing."""
+    """A law on [0, 1]: polynomials of tau, each between two breaks. Invariant: increasing."""
 
     breaks: tuple[Fraction, ...]
-    polynomials: tuple[Power, ...]
+    polynomials: tuple[RationalPoly, ...]
 
     @staticmethod
     def of(law: Law, ramp: Fraction = Fraction(1, 4)) -> TimeLaw:
         """``ramp``: the share of the time in which the trapezoid speeds up, and of that in which it slows down. Raises
         ``InputError`` for the least time, which depends on the path."""
-        if law is Law.CUBIC:
-            return TimeLaw((ZERO, ONE), ((ZERO, ZERO, Fraction(3), Fraction(-2)),))
-        if law is Law.QUINTIC:
-            return TimeLaw((ZERO, ONE), ((ZERO, ZERO, ZERO, Fraction(10), Fraction(-15), Fraction(6)),))
         if law is Law.LEAST:
             raise InputError("law: expected cubic, quintic or trapezoid, which have a formula, found least")
+        if law is not Law.TRAPEZOID:
+            powers = [0, 0, 3, -2] if law is Law.CUBIC else [0, 0, 0, 10, -15, 6]
+            return TimeLaw((ZERO, ONE), (RationalPoly.of(list(map(Fraction, powers))),))
         if not 0 < ramp <= Fraction(1, 2):
             raise InputError("the ramp of a trapezoid takes more than 0 and at most 1/2 of the time")
         top = 1 / (1 - ramp)
         bend = top / (2 * ramp)
-        rise, fall = (ZERO, ZERO, bend), (1 - bend, 2 * bend, -bend)  # 1 - bend (1 - tau)^2
-        if ramp == Fraction(1, 2):
-            return TimeLaw((ZERO, ramp, ONE), (rise, fall))
-        return TimeLaw((ZERO, ramp, 1 - ramp, ONE), (rise, (-top * ramp / 2, top), fall))
+        level = [[-top * ramp / 2, top]] if ramp < Fraction(1, 2) else []
+        rows = [[ZERO, ZERO, bend], *level, [1 - bend, 2 * bend, -bend]]  # 1 - bend (1 - tau)^2
+        return TimeLaw((ZERO, ramp, *([1 - ramp] if level else []), ONE), tuple(map(RationalPoly.of, rows)))
 
     @property
     def shares(self) -> list[RationalPoly]:
         """The polynomials, each by what is since its own break."""
-        moved = zip(self.breaks, self.polynomials, strict=False)
-        return [RationalPoly.of(p).compose(RationalPoly.of([low, 1])) for low, p in moved]
+        return [p.compose(RationalPoly.of([low, 1])) for low, p in zip(self.breaks, self.polynomials, strict=False)]
 
     def derivatives(self, tau: Fraction) -> tuple[Fraction, Fraction, Fraction]:
         """s, s' and s'' at tau, those of the earlier polynomial at a break."""
-        pieces = zip(self.breaks[1:], self.polynomials, strict=True)
-        polynomial = next(p for high, p in pieces if tau <= high)
-        slope = bs.power_derivative(polynomial)
-        value, first, second = (bs.power_value(p, tau) for p in (polynomial, slope, bs.power_derivative(slope)))
-        return value, first, second
+        p = next(p for high, p in zip(self.breaks[1:], self.polynomials, strict=True) if tau <= high)
+        return p(tau), p.derivative()(tau), p.derivative().derivative()(tau)
 
     def passage(self, share: Fraction, width: Fraction) -> tuple[Fraction, Fraction]:
         """Rational numbers around the tau with s(tau) = share, equal where that is found exactly, as at breaks."""
-        for low, high, polynomial in zip(self.breaks, self.breaks[1:], self.polynomials, strict=False):
-            if share == bs.power_value(polynomial, low):
+        for low, high, p in zip(self.breaks, self.breaks[1:], self.polynomials, strict=False):
+            if share == p(low):
                 return low, low
-            if share < bs.power_value(polynomial, high):
+            if share < p(high):
                 break
         else:
             return self.breaks[-1], self.breaks[-1]
         while high - low > width:
             middle = (low + high) / 2
-            value = bs.power_value(polynomial, middle)
+            value = p(middle)
             if value == share:
                 return middle, middle
             low, high = (middle, high) if value < share else (low, middle)

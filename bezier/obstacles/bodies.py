@@ -23,10 +23,16 @@ from fractions import Fraction
 from bezier.curves.curve import Bezier
 from bezier.curves.enclosure import Enclosure, bounds, root_above
 from bezier.curves.scalar import dot, exactly, subtract
-from bezier.obstacles.polyhedron import Point, Polytope
+from bezier.obstacles.polyhedron import Point, Polytope, nearest
 from qe.errors import Unable
 
 Box = tuple[Point, Point]
+
+
+def around(points: Sequence[Point], radius: Fraction) -> Box:
+    """The axis-parallel box around the balls of this radius about points."""
+    axes = list(zip(*points, strict=True))
+    return tuple(min(axis) - radius for axis in axes), tuple(max(axis) + radius for axis in axes)
 
 
 @dataclass(frozen=True, slots=True)
@@ -39,16 +45,15 @@ class Rounded:
     @property
     def box(self) -> Box:
         """The smallest axis-parallel box around the body."""
-        low = tuple(min(c[i] for c in self.core.corners) - self.radius for i in range(3))
-        return low, tuple(max(c[i] for c in self.core.corners) + self.radius for i in range(3))
+        return around(self.core.corners, self.radius)
 
     def nearest(self, p: Point) -> Point:
         """The nearest point of the core, exactly."""
-        return self.core.nearest(p)
+        return nearest(self.core.corners, (p,))[0]
 
     def support(self, direction: Sequence[Fraction]) -> Fraction | None:
         """The largest direction . q over the core, exactly."""
-        return self.core.support(direction)
+        return max(Fraction(dot(direction, p)) for p in self.core.corners)
 
 
 @dataclass(frozen=True, slots=True)

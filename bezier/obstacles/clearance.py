@@ -30,7 +30,8 @@ from bezier.curves.curve import Bezier
 from bezier.curves.enclosure import Enclosure, bounds
 from bezier.curves.nonnegative import Interval, events_of
 from bezier.curves.scalar import Vector, sign
-from bezier.obstacles.obstacle import Box, Constraint, Exponents, Obstacle, Piece
+from bezier.obstacles.bodies import Box
+from bezier.obstacles.obstacle import Constraint, Exponents, Obstacle, Piece
 from qe.errors import InputError
 
 

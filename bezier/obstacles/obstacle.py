@@ -18,7 +18,7 @@ from math import lcm
 from typing import Any
 
 from bezier.curves.scalar import Terms, Vector, dot, exactly, sign, subtract, terms_product, terms_scaled, terms_sum
-from bezier.obstacles.bodies import Body, Cylinder, HalfSpaceBody, Rounded
+from bezier.obstacles.bodies import Body, Box, Cylinder, HalfSpaceBody, Rounded, around
 from bezier.obstacles.polyhedron import Facet, Point, Polytope
 from qe.exact.ring import Poly, Ring
 from qe.formula.build import atom, conj
@@ -26,7 +26,6 @@ from qe.formula.syntax import Formula, Relation
 from qe.proof.certificate import Certificate
 
 Exponents = tuple[int, ...]
-Box = tuple[Point, Point]
 ZERO, ONE = Fraction(0), Fraction(1)
 
 
@@ -208,7 +207,7 @@ def _rounded(core: Polytope, radius: Fraction) -> list[Piece]:
     pieces = []
     if core.facets:
         boundaries = tuple(half_space(f.normal, f.offset) for f in core.facets)
-        pieces.append(Piece(boundaries, _hull(core.corners, ZERO)))
+        pieces.append(Piece(boundaries, around(core.corners, ZERO)))
     if not radius:
         return pieces
     for facet in core.facets:
@@ -220,15 +219,15 @@ def _rounded(core: Polytope, radius: Fraction) -> list[Piece]:
             half_space(along, Fraction(dot(along, b))),
             half_space(tuple(-x for x in along), -Fraction(dot(along, a))),
         )
-        pieces.append(Piece((tube(a, b, radius), *ends), _hull((a, b), radius)))
-    pieces += [Piece((ball(corner, radius),), _hull((corner,), radius)) for corner in core.corners]
+        pieces.append(Piece((tube(a, b, radius), *ends), around((a, b), radius)))
+    pieces += [Piece((ball(corner, radius),), around((corner,), radius)) for corner in core.corners]
     return pieces
 
 
 def _prism(core: Polytope, facet: Facet, radius: Fraction) -> Piece:
     sides = tuple(half_space(normal, offset) for normal, offset in facet.boundaries)
     corners = [core.corners[i] for i in facet.corners]
-    return Piece((slab(facet.normal, facet.offset, radius), *sides), _hull(corners, radius))
+    return Piece((slab(facet.normal, facet.offset, radius), *sides), around(corners, radius))
 
 
 def _cylinder(body: Cylinder) -> list[Piece]:
@@ -246,12 +245,6 @@ def _cylinder(body: Cylinder) -> list[Piece]:
         pieces.append(Piece((vertical_tube(centre, body.tube_radius), *between(m)), body.box))
         pieces += [Piece((c,), body.box) for h in rims for c in ring(centre, h, body.tube_radius, m)]
     return pieces
-
-
-def _hull(corners: Sequence[Point], radius: Fraction) -> Box:
-    """The axis-parallel box around the balls of this radius about the corners."""
-    low = tuple(min(c[i] for c in corners) - radius for i in range(3))
-    return low, tuple(max(c[i] for c in corners) + radius for i in range(3))
 
 
 def from_body(

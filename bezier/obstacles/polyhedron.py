@@ -11,9 +11,10 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from math import gcd, lcm
-from typing import Any, cast
+from typing import cast
 
 from bezier.curves.scalar import dot, subtract
+from bezier.proofs.square_roots import cross
 from qe.convex.cone import Cone
 from qe.errors import InputError
 from qe.exact.quadratic_form import solve_linear
@@ -47,14 +48,6 @@ class Polytope:
     corners: tuple[Point, ...]
     edges: tuple[tuple[int, int], ...] = ()
     facets: tuple[Facet, ...] = ()
-
-    def support(self, direction: Sequence[Fraction]) -> Fraction:
-        """The largest direction . p over the body."""
-        return max(Fraction(dot(direction, p)) for p in self.corners)
-
-    def nearest(self, p: Point) -> Point:
-        """The point of the body nearest to ``p``."""
-        return nearest(self.corners, (p,))[0]
 
 
 def point(p: Point) -> Polytope:
@@ -197,11 +190,6 @@ def _least(points: Sequence[Point]) -> list[Fraction]:
     assert solution is not None
     shares = cast(tuple[Fraction, ...], solution.particular)
     return [1 - sum(shares, Fraction(0)), *shares]
-
-
-def cross(a: Sequence[Any], b: Sequence[Any]) -> tuple[Any, ...]:
-    """The vector product."""
-    return (a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0])
 
 
 def _primitive(direction: Sequence[Fraction | int]) -> Point:

@@ -1,22 +1,6 @@
 """``[[obstacle]]`` tables: exact obstacles from a problem file, and one clear line for everything that is none.
 
-Keys of each kind, all with the optional ``name``, ``margin`` (all points within this distance belong to the obstacle
-too) and ``above`` (control points that have to lie at the height of its top or higher):
-
-    ball        centre, radius
-    box         low, high  |  corner, edges (three orthogonal vectors)
-    half_space  normal, offset (the points with normal . p <= offset)
-    cylinder    centre (x and y), radius, bottom, top (vertical; without bottom or top it goes on for ever)
-    capsule     start, end, radius
-    polyhedron  half_spaces ([a, b, c, d] for a x + b y + c z <= d)  |  vertices
-    formula     formula (text in x, y, z)
-
-Via points for a problem that names only obstacles.
-
-The rule. Seen from above, the way from start to goal is a straight segment. Obstacles are in the way if their bounding
-boxes, seen from above, meet it; obstacles without a bounding box are left to the proof at the end. Q0 and R0 are the
-points of the segment where the boxes in the way begin and end, at the height of the highest of them and a tenth of that
-box's height (``lift``) more. With no obstacle in the way they are the points at a third and two thirds of the way.
+docs/obstacles.md has the keys of each kind, and the rule for via points where a problem names only obstacles.
 """
 
 from __future__ import annotations
@@ -30,8 +14,8 @@ import qe
 from bezier.curves.scalar import Vector, add, dot, exactly, scale, subtract
 from bezier.input.numbers import Literal, NotANumber, describe, read, shorten
 from bezier.input.toml_table import POINT, Table
-from bezier.obstacles.bodies import Body, Cylinder, HalfSpaceBody, Rounded
-from bezier.obstacles.obstacle import Box, Constraint, Obstacle, ObstacleKind, Piece, from_body
+from bezier.obstacles.bodies import Body, Box, Cylinder, HalfSpaceBody, Rounded
+from bezier.obstacles.obstacle import Constraint, Obstacle, ObstacleKind, Piece, from_body
 from bezier.obstacles.polyhedron import (
     MAX_PARTS,
     Point,

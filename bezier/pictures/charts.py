@@ -20,7 +20,7 @@ from bezier.pictures.mesh import Array, sampled
 from bezier.pictures.obstacles import COLOURS as OBSTACLES
 from bezier.pictures.obstacles import ObstaclePicture
 from bezier.pictures.picture import COLOURS, GRID, INK, PALE, SHADE, Chart, numbers
-from bezier.pictures.plot import new_figure, svg_text
+from bezier.pictures.plot import framed, new_figure, svg_text
 
 COUNT = 241
 """Samples of a curve."""
@@ -42,10 +42,7 @@ def saved(panels: Panels, file: FilePath) -> tuple[Chart, ...]:
 
 
 def _titled(axis: Any, title: str, across: str, up: str = "", *, legend: bool = False) -> None:
-    axis.set_title(title, fontsize=10, color=INK)
-    axis.set_xlabel(across)
-    axis.set_ylabel(up)
-    axis.grid(color=GRID, linewidth=0.6)
+    framed(axis, across, up, title)
     if legend:
         axis.legend(frameon=False, fontsize=9)
 

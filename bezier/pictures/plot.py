@@ -342,11 +342,16 @@ def _grouped(picture: PathPicture, i: int, j: int) -> list[tuple[str, tuple[floa
 
 def _flat(axis: Any, title: str, i: int, j: int) -> None:
     axis.set_aspect("equal", adjustable="datalim")
-    axis.set_title(f"{title} ({AXES[i]}{AXES[j]})", fontsize=10, color=INK)
-    axis.set_xlabel(f"{AXES[i]} (mm)")
-    axis.set_ylabel(f"{AXES[j]} (mm)")
-    axis.grid(color=GRID, linewidth=0.6)
+    framed(axis, f"{AXES[i]} (mm)", f"{AXES[j]} (mm)", f"{title} ({AXES[i]}{AXES[j]})")
     axis.set_axisbelow(True)
+
+
+def framed(axis: Any, across: str, up: str = "", title: str = "", size: float = 10) -> None:
+    """With these words, and lines behind what is drawn."""
+    axis.set_title(title, fontsize=size, color=INK)
+    axis.set_xlabel(across)
+    axis.set_ylabel(up)
+    axis.grid(color=GRID, linewidth=0.6)
 
 
 def _say(axis: Any, text: str) -> None:

@@ -10,8 +10,8 @@ import numpy as np
 
 from bezier.pictures.mesh import Array, hull, sampled
 from bezier.pictures.obstacles import excess
-from bezier.pictures.picture import COLOURS, GRID, PALE, numbers
-from bezier.pictures.plot import AXES, new_figure, svg_text
+from bezier.pictures.picture import COLOURS, PALE, numbers
+from bezier.pictures.plot import AXES, framed, new_figure, svg_text
 from bezier.scenes.route import Blocked, Route
 from bezier.scenes.scene import Scene
 from bezier.scenes.solid import Solid
@@ -75,8 +75,8 @@ def _view(axis: Any, known: Route | Blocked, i: int, j: int) -> None:
         axis.plot(*numbers([point])[0, [i, j]], mark, color=WAY, label=name, zorder=4)
     pad = 0.02 * (high - low)
     xs, ys = zip(low - pad, high + pad, strict=True)
-    axis.set(xlim=xs, ylim=ys, xlabel=AXES[i], ylabel=AXES[j], aspect="equal")
-    axis.grid(color=GRID, linewidth=0.6)
+    axis.set(xlim=xs, ylim=ys, aspect="equal")
+    framed(axis, AXES[i], AXES[j])
     axis.set_axisbelow(True)
     axis.legend(loc="best", fontsize=8)
 

@@ -1,12 +1,5 @@
 """Planning with obstacles: the method's path, proved clear of every obstacle, or the documented alternatives.
 
-Tried in this order until a whole path is proved clear:
-
-1. the problem as given;
-2. the same with both via points raised by 1/4, 1/2 and 1 times the height of the highest obstacle in the way;
-3. for the quadratic method: the cubic one, as given and raised likewise;
-4. for both: the single curve of Method 1*, as given and raised likewise.
-
 The objective knows nothing of the obstacles, so a path that is blocked does not mean that none exists.
 """
 

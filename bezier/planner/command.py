@@ -9,7 +9,7 @@ from pathlib import Path as FilePath
 from typing import TYPE_CHECKING, Any
 
 from bezier.planner import derivations
-from bezier.planner.outputs import REPORT, SUMMARY, summary, write_data
+from bezier.planner.outputs import REPORT, SUMMARY, summary, write_data, write_texts
 from bezier.planner.planning import make_plan
 from bezier.planner.table import method_for
 from bezier.planner.words import lines
@@ -40,12 +40,8 @@ def write_folder(
     with clock.step("report"):
         from bezier.report.page import render
 
-        page = render(made, method, drawing)
-        (folder / REPORT).write_text(page, encoding="utf-8")
-        pages = derivations.pages(made)
-        for name, text in pages.items():
-            (folder / name).write_text(text, encoding="utf-8")
-    files = sorted([*files, *pages, REPORT, SUMMARY])
+        pages = write_texts(folder, {REPORT: render(made, method, drawing), **derivations.pages(made)})
+    files = sorted([*files, *pages, SUMMARY])
     entries = summary(made, [str(target / name) for name in files], time.perf_counter() - clock.start)
     text = json.dumps(entries, indent=1, ensure_ascii=False)
     (folder / SUMMARY).write_text(text + "\n", encoding="utf-8")

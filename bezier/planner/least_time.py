@@ -60,4 +60,4 @@ def _law(least: LeastTime) -> TimeLaw:
     breaks = list(accumulate((step.duration / total for step in least.steps), initial=Fraction(0)))
     share = [RationalPoly.of([-begin * total, total]) for begin in breaks[:-1]]
     places = (step.place.compose(inner) for step, inner in zip(least.steps, share, strict=True))
-    return TimeLaw(tuple(breaks), tuple(tuple(c / length for c in place.coefficients()) for place in places))
+    return TimeLaw(tuple(breaks), tuple(place * RationalPoly.of([1 / length]) for place in places))

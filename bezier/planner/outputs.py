@@ -12,7 +12,7 @@ import os
 import re
 import shutil
 import tempfile
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from fractions import Fraction
 from pathlib import Path as FilePath
 from typing import Any
@@ -120,8 +120,7 @@ def summary(plan: Plan, files: list[str], seconds: float) -> dict[str, Any]:
 
 
 def facts(plan: Plan) -> dict[str, Any]:
-    """What the summary says of a plan: all that ``bezier check`` finds again, but for what is named under
-    ``not_certified``."""
+    """What the summary says: all that ``bezier check`` finds again, but for what ``not_certified`` names."""
     problem, method = plan.problem, method_for(plan.problem)
     data: dict[str, Any] = {
         "status": plan.outcome.value,
@@ -250,7 +249,11 @@ def data_texts(plan: Plan) -> dict[str, str]:
 
 def write_data(plan: Plan, folder: FilePath) -> list[str]:
     """Write the files that carry exact data; returns their names."""
-    texts = data_texts(plan)
+    return write_texts(folder, data_texts(plan))
+
+
+def write_texts(folder: FilePath, texts: Mapping[str, str]) -> list[str]:
+    """Files by their names, which it returns."""
     for name, text in texts.items():
         (folder / name).write_text(text, encoding="utf-8")
     return list(texts)

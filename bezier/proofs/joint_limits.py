@@ -93,8 +93,7 @@ class KeptLimits:
         return True
 
     def _zeros_at(self, curve: int, joint: int, limit: Fraction) -> list[Fraction]:
-        """The coefficients of a polynomial that vanishes wherever the joint can be at its limit; none if that is
-        everywhere."""
+        """The coefficients of a polynomial that vanishes where the joint can be at its limit; none if everywhere."""
         point = [Polynomial.of(map(Surd.rational, row)) for row in self._curves[curve]]
         value = (ONE, ZERO) if self._chain.turns[joint] else (Surd.rational(limit),)
         held = Held.of(self._chain, joint, [Polynomial.of([c]) for c in value], lambda c: Polynomial.of([c]))

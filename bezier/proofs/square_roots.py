@@ -309,7 +309,7 @@ def back(motion: Motion) -> Motion:
     return (a, b, c), tuple(-dot(row, shift) for row in (a, b, c))
 
 
-def cross(a: Triple, b: Triple) -> Triple:
+def cross(a: Sequence[Any], b: Sequence[Any]) -> tuple[Any, ...]:
     """The vector product."""
     return (a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0])
 

@@ -11,8 +11,8 @@ from bezier.chains.chain import Chain
 from bezier.chains.region import PointRegion
 from bezier.curves.curve import Bezier
 from bezier.pictures.mesh import hull, sampled
-from bezier.pictures.picture import COLOURS, GRID, INK, PALE, Chart
-from bezier.pictures.plot import AXES, VIEWS, new_figure, place, svg_text
+from bezier.pictures.picture import COLOURS, INK, PALE, Chart
+from bezier.pictures.plot import AXES, VIEWS, framed, new_figure, place, svg_text
 from bezier.report import html
 from bezier.report.html import Card, Page, Section
 from bezier.report.parts import decimal_point
@@ -77,9 +77,7 @@ def _view(chain: Chain, curves: tuple[Bezier, ...], i: int, j: int, shown: Point
     axis.set_xlim(low[0] - pad, high[0] + pad)
     axis.set_ylim(low[1] - pad, high[1] + pad)
     axis.set_aspect("equal", adjustable="box")
-    axis.grid(color=GRID, linewidth=0.6)
-    axis.set_xlabel(f"{AXES[i]} (mm)")
-    axis.set_ylabel(f"{AXES[j]} (mm)")
+    framed(axis, f"{AXES[i]} (mm)", f"{AXES[j]} (mm)")
     names = zip(chain.point_names, given[:, (i, j)], strict=True)
     place(axis, [(name, point) for name, point in names if len(given) <= 16], np.concatenate(drawn))
     return svg_text(figure)

@@ -8,7 +8,6 @@ from __future__ import annotations
 import ast
 import re
 from collections.abc import Iterable, Iterator
-from fractions import Fraction
 from html import escape
 from typing import Any
 
@@ -155,11 +154,6 @@ def formula(node: Formula) -> str:
 def conjunction_lines(node: Formula) -> list[str]:
     """The parts of a conjunction, each as mathematics between whose parts a line may end; or anything else as one."""
     return [lines(formula(part)) for part in conjuncts(node)]
-
-
-def rational(value: Fraction) -> str:
-    """A fraction as an inline ``<math>`` element."""
-    return math(number(value))
 
 
 def cell(piece: Piece) -> list[str]:

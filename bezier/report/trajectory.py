@@ -11,8 +11,8 @@ import numpy as np
 from bezier.obstacles.survey import Finding
 from bezier.pictures.distance import signed_distances
 from bezier.pictures.mesh import Array
-from bezier.pictures.picture import GRID, INK, PALE
-from bezier.pictures.plot import new_figure, svg_text
+from bezier.pictures.picture import INK, PALE
+from bezier.pictures.plot import framed, new_figure, svg_text
 from bezier.report import html
 from bezier.report.html import Card, Page, Section
 from bezier.trajectories.along import WORDS, Along
@@ -57,9 +57,7 @@ class Quantity:
                 beyond = side * self.values > side * bound
                 axis.plot(self.times[beyond], self.values[beyond], ".", color=BAD, markersize=3)
         axis.plot(*self.worst, "o", color=INK if self.is_kept else BAD, markersize=6, fillstyle="none")
-        axis.set_title(self.words, fontsize=10, color=INK)
-        axis.set_xlabel("t (s)")
-        axis.grid(color=GRID, linewidth=0.6)
+        framed(axis, "t (s)", title=self.words)
         return svg_text(figure)
 
 

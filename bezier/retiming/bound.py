@@ -114,8 +114,7 @@ def _line(start: Fraction, end: Fraction, h: Fraction) -> RationalPoly:
 
 
 def bound(path: Trajectory, stops: Collection[int], bounds: Bounds, weights: Sequence[Weights]) -> Fraction:
-    """The seconds of the theorem, all of it checked but that u^3 <= 2 S. Raises ``ValueError`` where it does not
-    apply."""
+    """The seconds of the theorem, all of it checked but u^3 <= 2 S. Raises ``ValueError`` where it is no bound."""
     place, total, before = (0, ZERO), ZERO, Fraction(0)
     d = len(path.names)
     for part in weights:

@@ -17,7 +17,7 @@ from bezier.retiming.bound import Weights, bound, weights
 from bezier.retiming.grid import Bounds, Grid, even, stops_of
 from bezier.retiming.law import Step, fastest, is_motion, timed, usual
 from bezier.retiming.proposals import Proposal, proposal
-from bezier.retiming.smooth import smooth, speedings
+from bezier.retiming.smooth import speedings, steps_of
 from bezier.trajectories.evidence import claims, exceeding, refuted, whole
 from bezier.trajectories.limits import Limit, Verdict, decided
 from bezier.trajectories.piecewise import QUANTITIES, Trajectory
@@ -176,7 +176,7 @@ def _least_time(path: Trajectory, limits: Sequence[Limit], law: Law, accuracy: F
 
     def motion(slower: Fraction) -> tuple[Step, ...]:
         if parts:
-            return smooth(parts, slower)
+            return tuple(step for part in parts for step in steps_of(*part, slower))
         return fastest(grid, speeds / float(slower)) if law is Law.LEAST else usual(path, law, seconds * slower)
 
     steps, verdict = _keeping(grid, limits, motion, 1 + MARGIN if law is Law.LEAST else Fraction(1))

@@ -20,7 +20,7 @@ from pathlib import Path
 
 from bezier.curves.scalar import dot, subtract
 from bezier.input.toml_table import read_bytes
-from bezier.obstacles.polyhedron import cross
+from bezier.proofs.square_roots import cross
 from bezier.scenes.cells import Cell, Point, Side, opposite, primitive
 from qe.errors import CertificateRejected, InputError
 from qe.extras import wanted

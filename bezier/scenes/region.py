@@ -180,14 +180,9 @@ def _across(scene: Scene, place: Sequence[FieldElement], wide: Fraction) -> Iter
 
 def _planes(scene: Scene) -> Iterator[Side]:
     """Of the linear conditions."""
-    for c in (c for c in _conditions(scene) if c.degree == 1):
+    for c in (c for c in scene.conditions if c.degree == 1):
         terms = dict(c.terms)
         yield tuple(terms.get(key, ZERO) for key in UNITS[: scene.dimension]), -terms.get((0, 0, 0), ZERO)
-
-
-def _conditions(scene: Scene) -> list[Constraint]:
-    """Of all formulas, each once."""
-    return list(dict.fromkeys(c for body in scene.formulas for piece in body.pieces for c in piece))
 
 
 def _between(scene: Scene, free: Sequence[Cell], mixed: Sequence[Sequence[Cell]], walls: Sequence[Cell]) -> set[int]:
@@ -221,7 +216,7 @@ def _cut_through(scene: Scene, cell: Cell) -> Side:
     low, high = _ends(cell.floats)
     sizes, least = [b - a for a, b in zip(low, high, strict=True)], 1.0
     normal = tuple(Fraction(k == sizes.index(max(sizes))) for k in range(len(sizes)))
-    for c in _conditions(scene) if len(sizes) == 2 else ():
+    for c in scene.conditions if len(sizes) == 2 else ():
         try:
             slopes, values, rest = _about({powers: float(x) for powers, x in c.terms}, cell.floats)
         except OverflowError:
@@ -240,7 +235,8 @@ def _ends(corners: Sequence[Sequence[Any]]) -> tuple[tuple[Any, ...], tuple[Any,
 
 
 def _width(cell: Cell) -> Fraction:
-    return max(b - a for a, b in zip(*_ends(cell.corners), strict=True))
+    result: Fraction = max(b - a for a, b in zip(*_ends(cell.corners), strict=True))
+    return result
 
 
 def _owners(scene: Scene, cell: Cell) -> tuple[int, ...] | None:

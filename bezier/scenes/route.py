@@ -304,7 +304,7 @@ def _divides(conditions: Sequence[Constraint], scene: Scene) -> bool:
 def _divided(scene: Scene, budget: Budget, count: int) -> Blocked | None:
     """By so many polynomials of the formulas, where the engine soon proves it."""
     around, listed = Cell.box(scene.low, scene.high), dict[Constraint, None]()
-    for c in (c for body in scene.formulas for piece in body.pieces for c in piece):
+    for c in scene.conditions:
         listed |= dict.fromkeys(replace(c, terms=same.terms, strict=False) for same in (c, c.negated)[:count])
     limit = Budget(DIVIDING)
     for chosen in combinations(listed, count):

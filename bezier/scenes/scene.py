@@ -66,6 +66,11 @@ class Scene:
         """All that is in the way."""
         return (*self.solids, *self.formulas)
 
+    @property
+    def conditions(self) -> tuple[Constraint, ...]:
+        """Those of formulas, each once."""
+        return tuple(dict.fromkeys(c for body in self.formulas for piece in body.pieces for c in piece))
+
     def blocked_at(self, point: Point) -> str | None:
         """What a point is in the way of: an obstacle, or the end of the domain; None where it is free."""
         held = [body for body in self.bodies if body.contains(point)]
@@ -77,12 +82,8 @@ class Scene:
 def read_scene(table: Table, ends: tuple[Point, Point] | None = None, more: Fraction = ZERO) -> Scene:
     """A scene from a table with ``start``, ``goal``, ``domain`` (one table or a list whose intersection it is),
     ``obstacle``, a list, and ``margin``, which is added to that of every obstacle. ``ends``: start and goal in place of
-    those of the table, which then need not have a domain; ``more``: what is added to all margins, too.
-
-    Kinds of obstacles are those of ``bezier.obstacles``; a box may be flat. A domain is a box (also without ``kind``),
-    ball, half_ball (the part above its centre), polyhedron, cylinder, half_space or annulus (``centre``, ``inner``,
-    ``outer``, in space ``bottom`` and ``top``), in the plane without a last coordinate; disc, polygon and half_plane
-    are names for the same. Raises ``qe.InputError``, naming the key.
+    those of the table, which then need not have a domain; ``more``: what is added to all margins, too. The kinds of
+    obstacles and workspaces are in docs/scenes.md. Raises ``qe.InputError``, naming the key.
     """
     values = {("obstacle" if key == "obstacles" else key): value for key, value in table.values.items()}
     table = replace(table, values={key: value for key, value in values.items() if key not in NOTES})

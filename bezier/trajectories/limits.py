@@ -24,6 +24,7 @@ from bezier.curves.nonnegative import Negative, decide
 from bezier.trajectories.piecewise import QUANTITIES, Jump, Trajectory
 from qe.exact.algebraic import RealAlgebraic
 from qe.exact.rational_poly import RationalPoly
+from qe.rules.ranges import whole_root
 
 BITS = 128
 """Accuracy of the values at irrational times."""
@@ -108,16 +109,7 @@ class Outcome:
         if not self.limit.order or not self.bound:
             return None
         ratio, power = self.peak.value[1] / self.bound, self.limit.order * self.limit.power
-        return max(Fraction(1), Fraction(_root_above(ceil(ratio * TICK**power), power), TICK))
-
-
-def _root_above(value: int, power: int) -> int:
-    """The least whole number whose power is at least the value, which is positive."""
-    low, high = 0, 1 << (value.bit_length() // power + 1)
-    while high - low > 1:
-        middle = (low + high) // 2
-        low, high = (middle, high) if middle**power < value else (low, middle)
-    return high
+        return max(Fraction(1), Fraction(1 + whole_root(ceil(ratio * TICK**power) - 1, power), TICK))
 
 
 @dataclass(frozen=True)

@@ -1,13 +1,5 @@
 """Trajectories from files. Decimals in text are exact (0.1 is one tenth); floats in .npz are the dyadic numbers that
-they are.
-
-- CSV with the columns time and one for each axis; ``NAME_velocity`` and ``NAME_acceleration`` for all or none. Between
-  its rows: linear, with velocities cubic, with accelerations quintic, as the joint trajectory controller executes it.
-- CSV with the columns duration and ``x^0``, ``x^1``, ...: polynomials of the time since the beginning of each piece.
-- ROS 2 JointTrajectory as YAML or JSON, also inside ``trajectory`` or ``joint_trajectory``.
-- Drake's curves as JSON: ``{"control_points": [one list for each axis], "start_time": 0, "end_time": 1}``, a list of
-  such, or ``{"control_points": ..., "basis": {"order": 4, "knots": [...]}}`` as its B-spline trajectory is written.
-- SciPy's arrays as .npz (``bezier.trajectories.objects``).
+they are. docs/trajectories.md lists the forms.
 """
 
 from __future__ import annotations

@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
-from math import prod
 
 from qe.exact.block_order import BlockOrder, Exponents
 from qe.exact.groebner import Basis, groebner_basis
@@ -38,14 +37,6 @@ class Segment:
     def __reduce__(self) -> tuple[object, tuple[object, ...]]:
         """Without what is only remembered."""
         return Segment, (self.block, self.equal, self.nonzero, self.some, self.basis, self.elements, self.faithful)
-
-    @property
-    def unequal(self) -> tuple[Poly, ...]:
-        """N: the segment is where E vanishes and not all of these do."""
-        if not self.nonzero:
-            return self.some
-        product = prod(self.nonzero[1:], start=self.nonzero[0])
-        return tuple(product * p for p in self.some) or (product,)
 
     @cached_property
     def leads(self) -> tuple[Exponents, ...]:

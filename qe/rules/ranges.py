@@ -211,11 +211,11 @@ def _times(a: Number, b: Number) -> Number:
 
 def _root_below(value: Fraction, k: int) -> Fraction:
     """The k-th root of a number that is not negative, or a little less."""
-    top, bottom = _whole_root(value.numerator, k), _whole_root(value.denominator, k)
+    top, bottom = whole_root(value.numerator, k), whole_root(value.denominator, k)
     if (top**k, bottom**k) == (value.numerator, value.denominator):
         return Fraction(top, bottom)
     scale = 1 << BITS
-    return Fraction(_whole_root(value.numerator * scale**k // value.denominator, k), scale)
+    return Fraction(whole_root(value.numerator * scale**k // value.denominator, k), scale)
 
 
 def _root_above(value: Fraction, k: int) -> Fraction:
@@ -224,7 +224,7 @@ def _root_above(value: Fraction, k: int) -> Fraction:
     return root if root**k == value else root + Fraction(1, 1 << BITS)
 
 
-def _whole_root(n: int, k: int) -> int:
+def whole_root(n: int, k: int) -> int:
     """The greatest whole number whose k-th power is at most n."""
     low, high = 0, 1 << (n.bit_length() // k + 1)
     while high - low > 1:

@@ -132,16 +132,6 @@ def solved(rules: Sequence[Lift], variables: Sequence[str], body: Formula) -> Li
     return Lifted(tuple(rules), Pending(tuple(v for v in variables if v not in gone), body))
 
 
-def leaves(node: Node) -> tuple[Leaf, ...]:
-    """The problems that are left."""
-    match node:
-        case Leaf():
-            return (node,)
-        case Lifted(_, child) | Perturbed(_, _, child):
-            return leaves(child)
-    return tuple(leaf for child in node.children for leaf in leaves(child))
-
-
 def either(nodes: Iterable[Node]) -> Node:
     """The disjunction of nodes: without the impossible ones; one that is certain stands alone, and ends the search."""
     possible: list[Node] = []

@@ -160,13 +160,6 @@ def scale(a: Range, factor: Fraction) -> Range:
     return Range(hi, lo, a.hi_open, a.lo_open, holes)
 
 
-def shift(a: Range, by: Fraction) -> Range:
-    """x + by for x in a."""
-    lo = None if a.lo is None else a.lo + by
-    hi = None if a.hi is None else a.hi + by
-    return Range(lo, hi, a.lo_open, a.hi_open, frozenset(h + by for h in a.holes))
-
-
 def power(a: Range, exponent: int) -> Range:
     """Contains x**exponent for x in a, exponent at least 1."""
     if exponent == 1:

@@ -192,7 +192,7 @@ def test_degree_elevation_changes_nothing(body, points, more):
 @given(bodies, control_points(2, 4))
 def test_running_backwards_meets_the_same_obstacles(body, points):
     curve, thing = Bezier.of(points), obstacle(body)
-    assert isinstance(examine(curve, thing), Clear) == isinstance(examine(curve.reversed(), thing), Clear)
+    assert isinstance(examine(curve, thing), Clear) == isinstance(examine(Bezier(curve.points[::-1]), thing), Clear)
 
 
 def test_one_convex_condition_agrees_with_the_containment_test():

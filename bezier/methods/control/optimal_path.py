@@ -128,8 +128,7 @@ def drawn(problem: Problem, system: System, certified: Certified) -> dict[str, A
 
 
 def begun(problem: Problem, system: System, clock: Clock) -> Begun:
-    """The elimination, the optimum under its answer, and the path through it with what is proved about that: fields of
-    the plan."""
+    """Fields of the plan: elimination, optimum under its answer, and the path through it with what is proved."""
     answer = quantifier_free(system.statement(), clock)
     with clock.step("optimum"):
         optimum = least(system, answer, clock)

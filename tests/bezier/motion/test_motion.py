@@ -80,7 +80,7 @@ def test_passages_split_the_time_where_the_curves_meet():
 def test_no_sample_is_faster_than_the_extremes_say(first, second, law):
     path = path_of(first, [first[-1], *second[1:]])
     kinds = {3: Law.CUBIC, 5: Law.QUINTIC}
-    timing = Timing(kinds.get(len(law.polynomials[0]) - 1, Law.TRAPEZOID), QUARTER, Fraction(1))
+    timing = Timing(kinds.get(law.polynomials[0].degree, Law.TRAPEZOID), QUARTER, Fraction(1))
     motion = motion_of(path, timing)
     speed, push = motion.largest.values()
     for k in range(21):

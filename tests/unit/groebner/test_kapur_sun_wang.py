@@ -106,13 +106,6 @@ def test_leading_monomials_and_dimension(basis: tuple[Poly, ...], leads: object,
     assert (found.leads, found.dimension, found.is_unit) == (leads, dimension, unit)
 
 
-def test_where_not_all_vanish() -> None:
-    assert segment().unequal == ()
-    assert segment(some=(A, B)).unequal == (A, B)
-    assert segment(nonzero=(A, B)).unequal == (A * B,)
-    assert segment(nonzero=(A, B), some=(A - 1, B - 1)).unequal == (A * B * (A - 1), A * B * (B - 1))
-
-
 def test_reduction_modulo_basis_and_equations() -> None:
     plain = segment(A * X - B, nonzero=(A,))
     assert plain.base is None and plain.reduce(X * Y) == (A, B * Y)
