@@ -15,7 +15,7 @@ from typing import Any
 
 import numpy as np
 
-from bezier.retiming.grid import Grid
+from bezier.retiming.grid import SMOOTH, Grid
 from bezier.retiming.law import Step, short
 from bezier.trajectories.limits import Limit
 from bezier.trajectories.piecewise import Trajectory
@@ -30,12 +30,16 @@ Speeding = tuple[Fraction, Fraction, Any, float]
 
 
 def speedings(grid: Grid, speeds: Any, limits: Sequence[Limit]) -> list[Speeding]:
-    """The best ones between each two stops; ``speeds``: ds/dt at the nodes of the grid."""
+    """The best ones between each two stops, or places where q'' jumps; ``speeds``: ds/dt at the nodes of the grid."""
     path, result = grid.path, list[Speeding]()
     size = max(p.degree + 1 for row in path.pieces for p in row)
     table = np.array([[[*p.floats(), *[0.0] * size][:size] for p in row] for row in path.pieces])
     places = np.array([float(path.breaks[cut.piece] + cut.low) for cut in grid.intervals])
-    for low, high in pairwise(path.breaks[k] for k in sorted(grid.stops)):
+    second = np.polynomial.polynomial.polyder(table, 2, axis=2)
+    powers = np.array([float(h) for h in path.lengths])[:, None] ** np.arange(second.shape[2])
+    ends = np.einsum("kan,kn->ka", second, powers)
+    jumps = np.abs(second[1:, :, 0] - ends[:-1]).max(1, initial=0) > SMOOTH * np.abs(ends).max()
+    for low, high in pairwise(path.breaks[k] for k in sorted({*grid.stops, *(np.flatnonzero(jumps) + 1).tolist()})):
         inside = (places >= float(low)) & (places < float(high))
         v = np.array([0.0, *speeds[grid.begins[inside][1:]], 0.0])
         t = np.cumsum([0.0, *(2 * np.diff([*places[inside], float(high)]) / (v[1:] + v[:-1]))])

@@ -139,7 +139,10 @@ def test_a_limit_of_jerk_is_kept_and_the_bound_is_that_without_it() -> None:
     kept(motion, {**limits, "jerk": 0.5, "jerk_norm": 1})
     assert motion.verdict.is_kept and motion.bound == bezier.retime(curve, **limits).bound < motion.duration
     with pytest.raises(InputError, match="acceleration jumps"):  # q'' does, at the break
-        bezier.retime(path([[0, 1]], [[1, 1, 1]]), **limits, jerk=1)
+        bezier.retime(path([[0, 1]], [[1, 1, 1]]), **limits, jerk=1, law="quintic")
+    resting = bezier.retime(path([[0, 1]], [[1, 1, 1]]), **limits, jerk=1)  # there
+    kept(resting, {**limits, "jerk": 1})
+    assert any(step.state(F(0)) == (1, 0) for step in resting.steps)
     with pytest.raises(InputError, match="expected least or quintic with a limit of jerk"):
         bezier.retime(curve, **limits, jerk=20, law="trapezoid")
 

@@ -100,6 +100,42 @@ def test_a_gap_of_a_thousandth_between_discs_is_a_passage() -> None:
     assert not found.blocked
 
 
+@each(
+    ("upright", ["(x-5)^2 + (y-2)^2 <= 9", "(x-5)^2 + (y-750001/100000)^2 <= 25/4"], {}),
+    ("touching the box", ["(x-5)^2 + (y-9/4)^2 <= 81/16", "(x-5)^2 + (y-724999/100000)^2 <= (275001/100000)^2"], {}),
+    ("obliquely", ["(x-2)^2 + (y-2)^2 <= 9", "(x-6800008/1000000)^2 + (y-5600006/1000000)^2 <= 9"], {"goal": [9, 1]}),
+    daily=2,
+)
+def test_a_gap_of_a_millionth_of_the_box_is_a_passage(what: str, texts: list[str], more: dict[str, Any]) -> None:
+    """It was undecided: square cells as small as the gap are too many."""
+    also = ["x >= 6 & y >= 6"] if more else []
+    start = {"start": [1, 9], **more} if more else {}
+    found = decided(read_scene({**SCENE, **start, "obstacle": list(map(formula, [*texts, *also]))}), Budget(60))
+    found.check()
+    assert not found.blocked
+
+
+FOUR = [
+    "y = 8 - (x-5)^2/9 & x >= 2 & x <= 8",
+    "y = 2 + (x-5)^2/9 & x >= 2 & x <= 8",
+    "x = 8 - (y-5)^2/9 & y >= 2 & y <= 8",
+    "x = 2 + (y-5)^2/9 & y >= 2 & y <= 8",
+]
+
+
+def test_a_closed_chain_of_four_arcs_blocks_and_of_three_does_not(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Three were the most; cells, which do not tell, are given up early here."""
+    monkeypatch.setattr("bezier.scenes.region.MOST_CELLS", 40)
+    ring = {**SCENE, "start": [5, 5], "goal": ["1/2", 5]}
+    found = decided(read_scene({**ring, "obstacle": list(map(formula, FOUR))}), Budget(100))
+    found.check()
+    assert isinstance(found, Blocked) and len(found.divider) >= 4
+    other = replace(found, scene=read_scene({**ring, "obstacle": list(map(formula, FOUR[:3]))}))
+    with pytest.raises((qe.CertificateRejected, qe.Unable)):
+        other.check()
+    assert not decided(other.scene, Budget(60)).blocked
+
+
 def test_a_wall_or_a_divider_that_is_not_in_the_way_has_no_proof() -> None:
     for name, altered in (("two discs", "walls"), ("arcs around a point", "divider")):
         goal = {"goal": [9, 5]} if altered == "divider" else {}
