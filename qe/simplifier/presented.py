@@ -9,6 +9,7 @@ from itertools import groupby, pairwise
 
 from qe.exact.ring import Poly
 from qe.formula.build import atom, conj, disj, map_children
+from qe.formula.comparison import ranges
 from qe.formula.evaluate import holds_at
 from qe.formula.syntax import And, Atom, Formula, Or, Relation
 from qe.formula.traverse import atoms
@@ -27,20 +28,36 @@ def presented(formula: Formula) -> Formula:
 
 
 def ordered(formula: Formula) -> Formula:
-    """The formula with conditions on one variable in front of others in each conjunction, by the numbers in them."""
+    """The formula with conditions on one variable in front of others in each conjunction, by names and numbers; the two
+    sides of a range stay together."""
     if not isinstance(formula, And | Or):
         return formula
     formula = map_children(formula, ordered)
-    return conj(sorted(formula.args, key=_place)) if isinstance(formula, And) else formula
+    if not isinstance(formula, And):
+        return formula
+    blocks: list[list[Formula]] = []
+    for part in formula.args:
+        if blocks and _bounds_alike(blocks[-1][-1], part):
+            blocks[-1].append(part)
+        else:
+            blocks.append([part])
+    blocks.sort(key=lambda block: max(map(_place, block)))
+    return conj(part for block in blocks for part in sorted(block, key=_place))
 
 
-def _place(part: Formula) -> tuple[int, int, bool, Fraction]:
-    if not isinstance(part, Atom):
-        return 2, 0, False, Fraction(0)
-    if len(part.poly.variables) > 1:
-        return 1, 0, False, Fraction(0)
+def _bounds_alike(first: Formula, second: Formula) -> bool:
+    """Whether two neighbours, of which one is about a single variable, are the sides of a range: ``0 <= x <= y``."""
+    mixed = (len(first.free) == 1) != (len(second.free) == 1)
+    return mixed and isinstance(first, Atom) and isinstance(second, Atom) and len(ranges([first, second])) == 1
+
+
+def _place(part: Formula) -> tuple[int, str, int, str, bool, Fraction]:
+    if not isinstance(part, Atom) or len(part.poly.variables) > 1:
+        return 1 + (not isinstance(part, Atom)), "", 0, "", False, Fraction(0)
+    (name,) = part.free
+    word = name.rstrip("0123456789")
     curved = part.poly.total_degree > 1
-    return 0, part.poly.variables[0], curved, Fraction(0) if curved else roots_of(part.poly)[0].as_fraction()
+    return 0, word, len(name), name, curved, Fraction(0) if curved else roots_of(part.poly)[0].as_fraction()
 
 
 def intervals(formula: Formula) -> Formula | None:

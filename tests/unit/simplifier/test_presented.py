@@ -44,6 +44,7 @@ def test_the_same_holds_at_every_point(text: str) -> None:
         ("ex x. x^2 = a^2 - 2", "a^2 >= 2"),
         ("ex x. x*(a^2 - 1) = 1", "a /= -1 and a /= 1"),
         ("a > 0 and a /= 1", "a > 0 and a /= 1"),
+        ("0 <= x1 <= x2 and x10 = 1 and x4 = 5", "x4 = 5 and x10 = 1 and 0 <= x1 <= x2"),
         ("ex x. a*x^2 + b*x + c = 0", "c = 0 or a*c < 0 or b /= 0 and b^2 - 4*a*c >= 0"),
     ),
 )
