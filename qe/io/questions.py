@@ -13,12 +13,29 @@ from qe.io.surface import FUNCTIONS
 from qe.io.text_words import COUNTS, LISTED, QUANTITY, SIGNED
 from qe.spelling import KEYWORDS, WORD
 
+NO_NAMES = frozenset(
+    ("for", "every", "any", "some", "real", "reals", "number", "numbers", "such", "that", "with", "there", "is", "are")
+    + ("an", *SIGNED)
+)
+"""Words of sentences that are no variables."""
+
 LONGEST = 1000
 """Longer texts are no questions in words."""
 
 _LIST = rf"{LISTED}(?:\s*(?:,|and)\s*{LISTED})*"
 _SHOW = r"(?:(?:prove|show|verify|check|decide|determine)\s+(?:that|whether|if)|is\s+it\s+true\s+that)"
 _PROVE = r"(?:prove|show|verify)(?:\s+that)?"
+_STOCK = (
+    (r"(?:prove\s+or\s+disprove|true\s+or\s+false|prove|show|verify)\s*:\s*", "prove that "),
+    (r"(?:(?:when\s+)?do(?:es)?|under\s+(?:what|which)\s+conditions?(?:\s+on\s+.+?)?\s+do(?:es)?)\s+", ""),
+    (
+        r"(?:find|determine|give)\s+(?:the\s+)?conditions?(?:\s+on\s+.+?)?\s+(?:(?:so|such)\s+that|(?:for|under)\s+which|for)\s+",
+        "",
+    ),
+    (rf"if\s+(.+),\s*(?:find|determine)\s+({LISTED})", r"find \2 such that \1"),
+    (r"(find\s+)(?:the\s+)?(?:set|range)\s+of\s+", r"\1"),
+)
+"""Beginnings of questions, and what is said for short."""
 _ASKED = re.compile(
     rf"(?:({_SHOW}|(?:prove|show)(?::|(?=\s+[\w(|`√]))(?!\s+(?:in|and|or)\b))"
     rf"|solve(?:\s+for\s+({_LIST})\s*(?::|in\b)|\s+the\s+(?:in)?equalit(?:y|ies)|\s+the\s+equations?|:|"
@@ -30,9 +47,11 @@ _ASKED = re.compile(
 )
 """Words in front of what is to be shown or solved, or of a condition on the variables that are sought."""
 _GIVEN = re.compile(
-    rf"(?:let|if|suppose(?:\s+that)?|given(?:\s+that)?|assume(?:\s+that)?|for)\s+(.+?)[.,;:]?\s+(?:then\s+)?{_PROVE}\s+(.+)",
+    r"(?:let|if|suppose(?:\s+that)?|given(?:\s+that)?(?!\s+any\b)|assume(?:\s+that)?|for(?:\s+(?:all|any|every))?(?!\s+wh))\s+(.+?)"
+    rf"(?:[.,;:]?\s+(?:then\s+)?{_PROVE}|,\s+is(?:\s+it\s+true\s+that)?)\s+(.+)",
     re.IGNORECASE | re.DOTALL,
 )
+_IF_THEN = re.compile(r"if\s+(.+?),?\s+then\s+(.+)", re.IGNORECASE | re.DOTALL)
 _SIGN = rf"(?:{'|'.join(SIGNED)})"
 _SORTED = re.compile(
     rf"({_LIST})\s+(?:be|are|is|denote)\s+(?:an?\s+|any\s+)?(?:real\s+)?({_SIGN})?\s*(?:reals?\b)?\s*(?:numbers?\b)?"
@@ -50,16 +69,16 @@ _LEAN = re.compile(
 _BINDER = re.compile(r"[({]([^(){}:]*):\s*((?:[^(){}]|\([^()]*\))*)[)}]")
 _AND = re.compile(r"\s*,?\s*\b(?:(?:and\s+)?(?:with|such\s+that|satisfying|satisfy)|,\s*and)\b\s*")
 
-_KINDS = rf"((?:(?:distinct|different|real|{_SIGN}|and)\s+)*)"
+_KINDS = rf"((?:(?:distinct|different|real|equal|double|repeated|{_SIGN}|and)\s+)*)"
 _PLACE = (
     r"(?:(?:lying\s+|lie\s+)?(?:in|on|inside)\s+(?:the\s+(?:open\s+|closed\s+)?interval\s+)?([\[(][^\[\]()]+[\])])"
     r"|(?:lying\s+|lie\s+)?between\s+(\S+)\s+and\s+(\S+)"
     r"|(?:that\s+are\s+)?(greater|larger|bigger|less|smaller)\s+than\s+(\S+))"
 )
 _COUNTED = re.compile(
-    r"(?:the\s+)?(?:(?:quadratic|cubic)\s+)?(?:(?:equation|polynomial|(system)(?:\s+of\s+equations)?)\s+)?(.+?)"
+    r"(?:[Tt]he\s+)?(?:(?:quadratic|cubic)\s+)?(?:(?:equation|polynomial|(system)(?:\s+of\s+equations)?)\s+)?(.+?)"
     rf"\s+(?:has|have|to\s+have)\s+(an?\b|no\b|only\s+one|both|{QUANTITY}|{'|'.join(COUNTS)}|[2-6]|)\s*(?:its\s+)?"
-    rf"{_KINDS}(?:roots?|solutions?|zeros?)(?:\s+(?:in|for)\s+({LISTED}))?(?:\s+{_PLACE})?",
+    rf"{_KINDS}(?:roots?|solutions?|zeros?)(?:\s+(?:in|for)\s+({LISTED}))?(?:\s+(?:{_PLACE}|of\s+(opposite)\s+signs?))?",
     re.DOTALL,
 )
 _SEPARATED = re.compile(
@@ -69,14 +88,30 @@ _SEPARATED = re.compile(
 _ALWAYS = re.compile(
     rf"(?:is\s+)?(.+?)\s+(?:is\s+)?(?:always\s+)?({_SIGN})(?:\s+(for\s+(?:all|every|any)\b.*))?", re.DOTALL
 )
-_QUANTIFIED = re.compile(
-    r"[∃∀]|\b(?:[Ff]or\s+(?:all|every|any|some)|[Tt]here|ex|all|exists|forall|Ex|All|Exists|ForAll)\b"
+_BOUND = re.compile(
+    r"(?:[∃∀]|\b(?:[Ff]or\s+(?:all|every|any|some)|[Tt]here\s+(?:is|are|exists?)|ex|all|exists|forall|Ex|All|Exists|ForAll)\b)"
+    rf"[\s(\[{{]*(?:(?:reals?|numbers?|an?|some|{_SIGN})\s+)*({_LIST})"
 )
+"""The variables of a quantifier."""
 _CALL = re.compile(
     r"(?:\w+\.)?(n?solve\w*|reduce_\w+|prove|QuantifierElimination|SemiAlgebraic)\((.*)\)\s*[;:]?", re.DOTALL
 )
 _DOMAIN = re.compile(r"(?:domain\s*=\s*)?S?\.?Reals|real\b|\w+\s*=\s*(?:True|False|real)")
 _NAMES = re.compile(rf"(?:{WORD}|[\[({{]\s*(?:{WORD}(?:\s*,\s*{WORD})*)?\s*[\])}}])")
+
+_GOAL = re.compile(
+    r"(?i)\s*(?:(?:find|what\s+is|determine)\s+)?(?:the\s+)?(?:(min|max)(?:imum|imi[sz]e|imal|(?=:?\s+[-\w|]))"
+    r"(?:\s+(?:possible\s+)?value)?(?:\s+of)?|(least|smallest|lowest|greatest|largest|highest)\s+(?:possible\s+)?value\s+of):?\s+"
+)
+_FIRST = re.compile(
+    r"(?is)\s*(?:given|if|let|suppose|for)\s+(?:that\s+)?(.+?)[,.;]?\s+(?:then\s+)?((?:find|what\s+is|determine|minimi[sz]e|maximi[sz]e)\s.+)"
+)
+"""What is given in front of an optimum that is asked for."""
+_SUBJECT = re.compile(
+    r"(?is)(.+?),?\s+(?:subject\s+to|s\.\s?t\.|such\s+that|given|where|when|for|with|over|on|if):?\s+(.+)"
+)
+_INTERVAL = re.compile(r"\s*[\[(][^()\[\]<>=≤≥]*,[^()\[\]<>=≤≥]*[\])]\s*")
+_RELATED = re.compile(r"[<>=≤≥≠∈]")
 
 
 @dataclass(frozen=True, slots=True)
@@ -98,8 +133,11 @@ def plainly(text: str) -> Question:
     if call := _CALL.fullmatch(short):
         return _called(call[1], call[2])
     short = short.rstrip(" ?.")
-    if given := _GIVEN.fullmatch(short):
-        return Question(_closed(_claim(given[2]), _premise(given[1])))
+    for pattern, put in _STOCK:
+        short = re.sub(rf"^{pattern}", put, short, flags=re.IGNORECASE)
+    given = _GIVEN.fullmatch(short) or _IF_THEN.fullmatch(short)
+    if given and (given.re is _GIVEN or premise(given[1]) != given[1]):
+        return Question(_closed(_claim(given[2]), premise(given[1])))
     begins = _ASKED.match(short)
     rest, listed = (short[begins.end() :], begins[2] or begins[3] or "") if begins else (short, "")
     names = tuple(re.findall(rf"\b(?!and\b){LISTED}", listed))
@@ -120,18 +158,21 @@ def parts(text: str) -> list[str]:
 
 
 # --- what is to be proved ---------------------------------------------------------------------------------
-def _closed(claim: str, premise: str = "") -> str:
-    """A claim for all values of its variables, where it has no quantifiers of its own."""
-    whole = f"({premise}) -> ({claim})" if premise else claim
-    names = _names(whole)
-    return f"all {', '.join(names)}. {whole}" if names and not _QUANTIFIED.search(whole) else whole
+def _closed(claim: str, given: str = "") -> str:
+    """A claim for all values of its variables that no quantifier of its own has."""
+    whole = f"({given}) -> ({claim})" if given else claim
+    bound = {name for match in _BOUND.finditer(whole) for name in re.findall(LISTED, match[1])}
+    names = [name for name in _names(whole) if name not in bound]
+    return f"all {', '.join(names)}. {whole}" if names else whole
 
 
 def _claim(text: str) -> str:
-    return re.sub(r"^\s*(?:that|the inequality)\s+", "", text)
+    """What is claimed, with a quantifier behind it in front."""
+    text = re.sub(r"^\s*(?:that|the inequality)\s+", "", text)
+    return re.sub(r"(?s)^(.+?)\s+(for\s+(?:all|every|any)\b[^:]*)$", r"\2: \1", text)
 
 
-def _premise(text: str) -> str:
+def premise(text: str) -> str:
     """Conditions in words: ``x, y be positive reals with x + y = 1`` is ``x, y > 0 and x + y = 1``."""
 
     def sorted_names(match: re.Match[str]) -> str:
@@ -165,7 +206,7 @@ def _names(text: str) -> tuple[str, ...]:
     from qe.io.text_lexer import CALLS
     from qe.io.text_parser import products
 
-    words = [word for word in re.findall(LISTED, text) if not {word} & {*KEYWORDS, *FUNCTIONS, *CALLS}]
+    words = [word for word in re.findall(LISTED, text) if not {word} & {*KEYWORDS, *FUNCTIONS, *CALLS, *NO_NAMES}]
     made = products(text)
     return tuple(dict.fromkeys(name for word in words for name in (word if word in made else [word])))
 
@@ -174,7 +215,8 @@ def _names(text: str) -> tuple[str, ...]:
 def _equation(text: str, sought: tuple[str, ...], named: str | None) -> tuple[str, str] | None:
     """An equation and the variable that it is to be solved for; None where that is not clear."""
     others = {*_names(text)}.difference(sought)
-    name = named or ("x" if "x" in others else others.pop() if len(others) == 1 else "")
+    has_x = any(other.endswith("x") for other in others if len(other) < 4)  # x, ax
+    name = named or ("x" if has_x else others.pop() if len(others) == 1 else "")
     if not name or re.search(r"[<>≤≥≠∃∀]|\b(?:and|or|ex|all|for|if)\b", text):
         return None
     return (text if "=" in text else f"{text} = 0"), name
@@ -185,7 +227,7 @@ def _counted(text: str, sought: tuple[str, ...]) -> str | None:
     counted = _COUNTED.fullmatch(text)
     if counted is None:
         return None
-    is_system, whose, many, kinds, named, *place = counted.groups()
+    is_system, whose, many, kinds, named, *place, opposite = counted.groups()
     if is_system:
         names = [name for name in _names(whose) if name not in sought]
         exists = {"": "ex", "a": "ex", "an": "ex", "no": "not ex"}.get(many)
@@ -194,6 +236,11 @@ def _counted(text: str, sought: tuple[str, ...]) -> str | None:
     if solved is None:
         return None
     equation, name = solved
+    if opposite:
+        return f"(ex {name}. {equation} and {name} < 0) and (ex {name}. {equation} and {name} > 0)"
+    if re.search("equal|double|repeated", kinds):  # of a quadratic polynomial
+        degrees = re.findall(rf"{name}\s*(?:\^|\*\*)\s*\(?(\d+)", equation)
+        return f"exactly one {name}. {equation}" if {*degrees} == {"2"} else None
     signs = [f"{name} {SIGNED[word]} 0" for word in re.findall(_SIGN, kinds)]
     conditions = [condition for condition in (*signs, _place(name, place)) if condition]
     if many == "both":
@@ -235,6 +282,35 @@ def _always(text: str) -> str | None:
         return None
     claim = f"{always[1]} {SIGNED[always[2]]} 0"
     return f"{always[3]}: {claim}" if always[3] else _closed(claim)
+
+
+# --- optima -----------------------------------------------------------------------------------------------
+def optimum_in_words(text: str) -> tuple[int, str, str] | None:
+    """1 or -1 (0 without a word for it), the objective and the conditions of ``minimize f subject to c``, ``f, c``,
+    ``given c, find the least value of f``; None for another text."""
+    text = text.rstrip(" ?.")
+    if (given := _FIRST.fullmatch(text)) and (inner := optimum_in_words(given[2])):
+        sign, objective, conditions = inner
+        return sign, objective, ", ".join((premise(given[1]), *([conditions] * (conditions != "true"))))
+    goal = _GOAL.match(text)
+    said = _SUBJECT.fullmatch(text, goal.end() if goal else 0)
+    whole = text[goal.end() :] if goal else text
+    objective, conditions = (said[1], premise(said[2])) if said else _at_comma(whole)
+    if not goal and objective == whole:
+        return None
+    names = {*re.findall(WORD, objective)}.difference(FUNCTIONS)
+    if _INTERVAL.fullmatch(conditions) and len(names) == 1:
+        conditions = f"{names.pop()} in {conditions}"
+    word = (goal[1] or goal[2]).lower() if goal else ""
+    sign = (word in ("min", "least", "smallest", "lowest")) - (word in ("max", "greatest", "largest", "highest"))
+    return sign, objective, conditions
+
+
+def _at_comma(text: str) -> tuple[str, str]:
+    """An objective and the conditions that follow it: ``x + 1/x, x > 0``."""
+    first, *rest = parts(text)
+    is_pair = rest and _RELATED.search(", ".join(rest)) and not _RELATED.search(first)
+    return (first, ", ".join(rest)) if is_pair else (text, "true")
 
 
 # --- other systems ----------------------------------------------------------------------------------------

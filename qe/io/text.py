@@ -16,7 +16,7 @@ from qe.exact.ring import Poly
 from qe.formula.syntax import Formula, Relation
 from qe.io.lowering import lower, lower_term
 from qe.io.parser import TERM, parsed
-from qe.io.questions import parts, plainly
+from qe.io.questions import optimum_in_words, parts, plainly
 from qe.io.surface import FUNCTIONS, Comparison, Every, Meet, Name, Node, Number, Quantification, Term
 from qe.io.text_errors import Failing, SyntaxFailure
 from qe.io.text_lexer import COMMANDS, KEYWORDS
@@ -32,15 +32,6 @@ _ASKED = re.compile(
 _WHERE = re.compile(r"(.*?)[,;]?\s+where\s+((?:[A-Z]\s*=[^=<>≤≥≠]+,\s*)*[A-Z]\s*=[^=<>≤≥≠]+)", re.DOTALL)
 _DEFINED = re.compile(r"([A-Z])\s*=\s*([^=]+?)\s*(?:,(?=\s*[A-Z]\s*=)|$)")
 _OPTIMUM = re.compile(r"\s*(N?M(?:in|ax)(?:imize|Value)|ArgM(?:in|ax))\[(.*)\]\s*", re.DOTALL)
-_GOAL = re.compile(
-    r"(?i)\s*(?:(?:find|what\s+is|determine)\s+)?(?:the\s+)?(?:(min|max)(?:imum|imi[sz]e|imal|(?=:?\s+[-\w|]))"
-    r"(?:\s+(?:possible\s+)?value)?(?:\s+of)?|(least|smallest|lowest|greatest|largest|highest)\s+(?:possible\s+)?value\s+of):?\s+"
-)
-_SUBJECT = re.compile(
-    r"(?is)(.+?),?\s+(?:subject\s+to|s\.\s?t\.|such\s+that|given|where|when|for|with|over|on|if):?\s+(.+)"
-)
-_INTERVAL = re.compile(r"\s*[\[(][^()\[\]<>=≤≥]*,[^()\[\]<>=≤≥]*[\])]\s*")
-_RELATED = re.compile(r"[<>=≤≥≠∈]")
 
 
 def read(text: str, *, source: str = "<text>", known: Container[str] = (), total_division: bool = False) -> Formula:
@@ -135,18 +126,8 @@ def solved_for(text: str) -> tuple[str, ...] | None:
 def optimum_asked(text: str) -> tuple[int, str, str, tuple[str, ...]] | None:
     """1 or -1, the objective, the constraints and the variables of ``Minimize[{f, c}, {x, y}]`` or ``Maximize``; for
     ``minimize f subject to c`` (0 without its first word) all are variables, and none are told."""
-    text = text.rstrip(" ?.")
-    goal = _GOAL.match(text)
-    said = _SUBJECT.fullmatch(text, goal.end() if goal else 0)
-    asked = text[goal.end() :] if goal else text
-    objective, conditions = (said[1], said[2]) if said else _at_comma(asked)
-    if goal or objective != asked:
-        names = {*re.findall(WORD, objective)}.difference(FUNCTIONS)
-        if _INTERVAL.fullmatch(conditions) and len(names) == 1:
-            conditions = f"{names.pop()} in {conditions}"
-        word = (goal[1] or goal[2]).lower() if goal else ""
-        sign = (word in ("min", "least", "smallest", "lowest")) - (word in ("max", "greatest", "largest", "highest"))
-        return sign, objective, conditions, ()
+    if words := optimum_in_words(text):
+        return (*words, ())
     if (command := _OPTIMUM.fullmatch(text)) is None:
         return None
     objective, *constraints = [part for part in parts(command[2]) if part != "Reals"]
@@ -155,13 +136,6 @@ def optimum_asked(text: str) -> tuple[int, str, str, tuple[str, ...]] | None:
         objective, *constraints = parts(objective[1:-1])
     sign = 1 if "Min" in command[1] else -1
     return sign, objective, f"{{{', '.join(constraints)}}}" if constraints else "true", (*re.findall(WORD, variables),)
-
-
-def _at_comma(text: str) -> tuple[str, str]:
-    """An objective and the conditions that follow it: ``x + 1/x, x > 0``."""
-    first, *rest = parts(text)
-    is_pair = rest and _RELATED.search(", ".join(rest)) and not _RELATED.search(first)
-    return (first, ", ".join(rest)) if is_pair else (text, "true")
 
 
 def with_products(texts: Sequence[str], listed: Collection[str] = ()) -> tuple[list[str], list[str]]:
