@@ -4,17 +4,18 @@ those that a contradiction needs. Nothing here is trusted."""
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Sequence
+from itertools import combinations
 
 from qe.errors import Unable
 from qe.extras import lacking
 from qe.formula.syntax import FALSE, Atom, Exists
 from qe.kernel.block import existential
 from qe.kernel.boolean import Search, Theory
-from qe.kernel.clauses import Clauses, Literal
+from qe.kernel.clauses import Literal
 from qe.kernel.signs import ANY, NEGATIVE, POSITIVE, ZERO
 from qe.kernel.step import Claim, Limits
 from qe.proof.entry import Entry, Json, formula_from_json
-from qe.proving.unit_propagation import Clauses as Propositional
+from qe.proving.refutation import Explained, Sources
 
 MOST_LEARNT = 20_000
 BITS = (POSITIVE, NEGATIVE, ZERO)
@@ -28,12 +29,16 @@ def refuted_block(claim: Claim) -> Exists:
     return before
 
 
-class Numbered(Clauses):
-    """The same clauses for a SAT solver: a polynomial has three numbers, for > 0, < 0 and = 0; a condition has one."""
+class Numbered(Explained):
+    """The same clauses for a SAT solver: a polynomial has three numbers, for > 0, < 0 and = 0; a condition has one.
+
+    ``listed``: the clauses by such numbers; ``count``: how many were added, each with its place as the bit of a source.
+    """
 
     def __init__(self, limits: Limits) -> None:
         super().__init__(limits.tick)
-        self.propositional = Propositional(limits.tick)
+        self.listed: list[list[int]] = []
+        self.count = 0
         self._meanings: list[tuple[int, int]] = [(0, 0)]
         self._first: list[int] = []
         self._boolean: list[bool] = []
@@ -45,18 +50,18 @@ class Numbered(Clauses):
         self._boolean.append(signs != ANY)
         self._meanings += [(i, bit) for bit in (BITS if signs == ANY else BITS[:1])]
         if signs == ANY:
-            self.propositional.add((first, first + 1, first + 2))
-            for pair in ((0, 1), (0, 2), (1, 2)):
-                self.propositional.add(-first - k for k in pair)
+            numbers = range(first, first + 3)
+            self.listed += [[*numbers], *([-k, -n] for k, n in combinations(numbers, 2))]
         elif signs == POSITIVE:
-            self.propositional.add((first,))
+            self.listed.append([first])
         return i
 
-    def add(self, literals: Iterable[Literal]) -> None:
+    def add(self, literals: Iterable[Literal], sources: Sources = 0) -> None:
         """As ``Clauses.add``."""
         listed = list(literals)
-        super().add(listed)
-        self.propositional.add(map(self._number, listed))
+        super().add(listed, sources | 1 << self.count)
+        self.count += 1
+        self.listed.append([*map(self._number, listed)])
 
     def _number(self, literal: Literal) -> int:
         """The number of a literal, negated where it excludes that."""
@@ -82,12 +87,6 @@ def search(claim: Claim, refuted: Sequence[Sequence[Atom]], limits: Limits) -> N
     return clauses
 
 
-def theory_of(clauses: Iterable[Sequence[Literal]], refuted: list[Json]) -> dict[str, Json]:
-    """The evidence for the primitive "signs"."""
-    cases: list[Json] = [[0, [8 * i + signs for i, signs in clause]] for clause in clauses]
-    return {"theory": {"polynomials": [], "lemmas": [], "cases": cases, "refuted": refuted}}
-
-
 def conflicts(entry: Entry, claim: Claim) -> list[list[Atom]]:
     """The comparisons of each entry of ``refuted``."""
     listed = [e.fields("atoms", "steps")[0].items() for e in entry.items()]
@@ -106,34 +105,33 @@ def with_clauses(claim: Claim, limits: Limits) -> dict[str, Json]:
     entry = claim.evidence.fields("refuted")[0]
     refuted = conflicts(entry, claim)
     clauses = search(claim, refuted, limits)
-    propositional = clauses.propositional
-    given = len(propositional.clauses)
-    learnt, used = [], []
-    for clause in _learnt(propositional.clauses):
-        reasons = propositional.implying(clause)
+    given, learnt, used = clauses.count, list[list[Literal]](), list[Sources]()
+    for clause in map(clauses.clause, _learnt(clauses.listed)):
+        reasons = clauses.conflict([((i, ANY & ~signs), 0) for i, signs in clause])[1]
         if reasons is not None:
-            propositional.add(clause)
+            clauses.add(clause)
             learnt.append(clause)
             used.append(reasons)
-    last = propositional.implying(())
-    if last is None:
+    needed = clauses.conflict(())[1]
+    if needed is None:
         raise claim.fail("not all cases are excluded")
-    needed = set(last)
     for k in reversed(range(len(learnt))):
-        if given + k in needed:
-            needed |= used[k]
+        needed |= used[k] if needed >> (given + k) & 1 else 0
     assert isinstance(entry.value, list)  # it has been read
-    kept = [part for k, part in enumerate(entry.value, start=given - len(refuted)) if k in needed]
-    return theory_of((clauses.clause(c) for k, c in enumerate(learnt) if given + k in needed), kept)
+    kept = [part for k, part in enumerate(entry.value, start=given - len(refuted)) if needed >> k & 1]
+    cases: list[Json] = [
+        [0, [8 * i + signs for i, signs in clause]] for k, clause in enumerate(learnt) if needed >> (given + k) & 1
+    ]
+    return {"theory": {"polynomials": [], "lemmas": [], "cases": cases, "refuted": kept}}
 
 
-def _learnt(clauses: Sequence[Sequence[int]]) -> Iterator[list[int]]:
+def _learnt(clauses: list[list[int]]) -> Iterator[list[int]]:
     """The clauses that a solver learns until it finds a contradiction."""
     try:
         from pysat.solvers import Solver
     except ImportError as error:
         raise lacking(error) or error from None
-    with Solver(name="glucose4", bootstrap_with=[list(c) for c in clauses], with_proof=True) as solver:
+    with Solver(name="glucose4", bootstrap_with=clauses, with_proof=True) as solver:
         if solver.solve():
             return
         lines = [line.split() for line in solver.get_proof() or ()]
