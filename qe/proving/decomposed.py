@@ -12,11 +12,8 @@ from qe.expert.solutions import check_solutions
 from qe.formula.build import atom, conj, convert, disj, exists, map_children
 from qe.formula.normal import nnf
 from qe.formula.syntax import FALSE, Exists, Formula, Relation
-from qe.kernel.block import existential
-from qe.kernel.step import Claim, Context, Limits, only
+from qe.kernel.step import only
 from qe.options import Options
-from qe.proof.certificate import written
-from qe.proof.entry import Json
 from qe.proving.made import Made
 from qe.proving.search import refuted_block
 
@@ -24,35 +21,34 @@ WORK = 50_000
 """Units of work for a decomposition."""
 
 
-def decomposed(claim: Claim, context: Context, limits: Limits) -> list[Json]:
+def decomposed(made: Made, after: Formula) -> None:
     """The step by a decomposition of the block."""
-    before, after = existential(claim)
-    return [written("cells", (), before, after, (), table(before, after, claim, limits))]
+    tabulated(made, made.current, after)
 
 
-def table(before: Formula, after: Formula, claim: Claim, limits: Limits) -> Json:
-    """The evidence of a decomposition for an equivalence; ``BudgetExceeded`` where it is too large."""
+def tabulated(made: Made, before: Formula, after: Formula) -> None:
+    """A step by a decomposition; ``BudgetExceeded`` where it is too large."""
     if not after.is_quantifier_free or not set(before.free) >= set(after.free):
-        raise claim.fail("an answer without quantifiers, and without other variables, expected")
-    certificate = certificate_for(before, after, Options(), limits.budget.part(WORK))
+        raise made.claim.fail("an answer without quantifiers, and without other variables, expected")
+    certificate = certificate_for(before, after, Options(), made.limits.budget.part(WORK))
     if certificate is None:
-        raise claim.fail("nothing to decompose")
-    evidence: Json = certificate.single_step["evidence"]
-    return evidence
+        raise made.claim.fail("nothing to decompose")
+    made.step("cells", before, after, certificate.single_step["evidence"])
 
 
-def counted(claim: Claim, context: Context, limits: Limits) -> list[Json]:
+def counted(made: Made, after: Formula) -> None:
     """A block over equations, by a decomposition; a sentence that is false also by ``systems``, with evidence as for
     the rule "solutions" that they have none: each conjunction of the body has one of them among its members."""
+    claim = made.claim
     systems = only(claim, optional=("systems", "proofs"))[0]
     if systems.value is None:
-        return decomposed(claim, context, limits)
+        decomposed(made, after)
+        return
     from qe.elimination.cgs import conjunctions
 
-    refuted = [(convert(check_solutions(entry, limits)[0], claim.ring), entry.value) for entry in systems.items()]
+    refuted = [(convert(check_solutions(entry, made.limits)[0], claim.ring), entry.value) for entry in systems.items()]
     before = refuted_block(claim)
     cases = [exists(before.variables, conj(members)) for members in conjunctions(before.body)]
-    made = Made(claim, limits, before, context)
     made.signs(before, disj(cases))
     while made.current != FALSE:
         for system, evidence in refuted:
@@ -61,35 +57,33 @@ def counted(claim: Claim, context: Context, limits: Limits) -> list[Json]:
                 break
         else:
             raise systems.fail("a conjunction of the sentence is not refuted")
-    return made.steps
 
 
-def roots_by_signs(claim: Claim, context: Context, limits: Limits) -> list[Json]:
+def roots_by_signs(made: Made, after: Formula) -> None:
     """A block about one polynomial: a decomposition where its leading coefficient is not 0; where it is, the lower
     terms stay, and an interval is mapped to y > 0 by l + y, u - y, or (l + u*y)/(1 + y)."""
-    before, after = existential(claim)
+    before, ring = made.current, made.ring
     if after.is_quantifier_free:
-        return decomposed(claim, context, limits)
+        decomposed(made, after)
+        return
     if not isinstance(before, Exists) or len(before.variables) != 1:
-        raise claim.fail("a block of one variable expected")
-    (name,), ring = before.variables, claim.ring
+        raise made.claim.fail("a block of one variable expected")
+    (name,) = before.variables
     question = read(before.body, ring.index[name])
     if question is None:
-        raise claim.fail("not a question about one polynomial")
+        raise made.claim.fail("not a question about one polynomial")
     lower, lead = nnf(question.degenerate(ring.index[name])), question.f[-1]
     cases = [exists((name,), conj((atom(lead, rel), before.body))) for rel in (Relation.NE, Relation.EQ)]
     regular = conj((atom(lead, Relation.NE), _without(after, lower)))
     known = conj((question.side, atom(lead, Relation.EQ)))
     body = lower.body if isinstance(lower, Exists) else lower
     moved = exists((name,), conj((known, body)))
-    made = Made(claim, limits, before, context)
     made.signs(before, disj(cases))
-    made.step("cells", cases[0], regular, table(cases[0], regular, claim, limits))
+    tabulated(made, cases[0], regular)
     there, back = question.terms(ring.gen(ring.index[name]))
     made.terms(cases[1], moved, {name: there}, {name: back})
     made.moved(moved, conj((known, lower)))
     made.simplified(made.current, after)
-    return made.finished(after)
 
 
 def _without(formula: Formula, block: Formula) -> Formula:

@@ -6,7 +6,7 @@ and says by which steps of the kernel it is made.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Mapping
 from contextlib import suppress
 from dataclasses import replace
 from fractions import Fraction
@@ -15,17 +15,15 @@ from math import lcm
 from qe.errors import CertificateRejected
 from qe.formula.build import atom, conj, disj, exists
 from qe.formula.normal import nnf
-from qe.formula.syntax import TRUE, Atom, Exists, Formula, Or, Relation
-from qe.formula.traverse import conjuncts, map_atoms
-from qe.kernel.block import block_goals, existential
-from qe.kernel.derivation import replaced
-from qe.kernel.negation import normal
+from qe.formula.syntax import TRUE, Atom, Exists, Formula, Relation
+from qe.formula.traverse import conjuncts, disjuncts, map_atoms
+from qe.kernel.block import existential
 from qe.kernel.root import root_goals
 from qe.kernel.step import Claim, Context, Limits, only
 from qe.kernel.terms import Quotient, at_terms
 from qe.kernel.theorem import theorem_goals
 from qe.proof.certificate import written
-from qe.proof.entry import Json
+from qe.proof.entry import Entry, Json
 from qe.proving.along import constant_along
 from qe.proving.counted_roots import roots_counted
 from qe.proving.decomposed import counted, decomposed, roots_by_signs
@@ -33,7 +31,7 @@ from qe.proving.far import infinity_first, zeros
 from qe.proving.forms import named, seen_along
 from qe.proving.lemma_list import EMPTY
 from qe.proving.linear import guarded, term
-from qe.proving.made import FRESH, by_lemmas, terms, value
+from qe.proving.made import FRESH, Made, quantified, value
 from qe.proving.mirrors import mirrored
 from qe.proving.primitive_names import PROJECTION
 from qe.proving.ranges import by_ranges
@@ -44,69 +42,54 @@ from qe.proving.thin import degenerate_truth_set
 from qe.proving.turns import turned
 from qe.rules.closed_forms import matches
 
-Elaborator = Callable[[Claim, Context, Limits], list[Json]]
-"""The steps that lead from ``claim.before`` to ``claim.after``; ``CertificateRejected`` where there are none."""
+Elaborator = Callable[[Made, Formula], None]
+"""Makes the steps from a formula to another one; ``CertificateRejected`` where there are none."""
 
 
-def by_theorems(
-    block: Exists, context: Context, claim: Claim, limits: Limits, place: tuple[int, ...] = ()
-) -> Iterator[tuple[Json, Formula]]:
-    """Steps from a block to its answer by theorems of the family that is called like the rule, and the answers."""
-    for match in matches((claim.rule,), block.variables, block.body):
-        answer = nnf(match.formula("answer"))
-        try:
-            step = by_lemmas("theorem", theorem_goals, block, answer, match.evidence, context, claim, limits, place)
-        except CertificateRejected:
-            continue
-        yield step, answer
-
-
-def square_alone(claim: Claim, context: Context, limits: Limits) -> list[Json]:
-    """A variable that one condition looks at, as a parabola: that condition in a block of its own, by a theorem."""
-    (variable,) = only(claim, "variable")
-    block, name, _ = claim.variable(variable)
-    parts = conjuncts(block.body)
-    part = next((f for f in parts if name in f.free), TRUE)
-    inner, rest = Exists((name,), part), tuple(v for v in block.variables if v != name)
-    body = conj(inner if f is part else f for f in parts)
-    middle = Exists(rest, body) if rest else body  # the blocks stay two, also where one stands in the other alone
-    place = (*((0,) if rest else ()), *((parts.index(part),) if len(parts) > 1 else ()))
-    solved = next(by_theorems(inner, (), claim, limits, place), None)
-    if solved is None:
-        raise claim.fail("not an instance of a theorem")
-    return [*_regrouped(block, middle), solved[0]]
-
-
-def value_taken(claim: Claim, context: Context, limits: Limits) -> list[Json]:
-    """A variable of which one comparison alone asks something: a value far out, or a root, meets it."""
-    variable = only(claim, "variable", optional=("theory",))[0]
-    block, name, _ = claim.variable(variable)
-    parts = conjuncts(block.body)
-    part = next((f for f in parts if name in f.free), TRUE)
-    others = tuple(f for f in parts if f is not part)
-    inner, rest = Exists((name,), part), tuple(v for v in block.variables if v != name)
-    middle = exists(rest, conj((inner, *others)))
-    place = (*((0,) if rest else ()), *((0,) if others else ()))
-    facts = replaced(middle, place, inner, TRUE, context, variable)[0]
-    is_odd = isinstance(part, Atom) and part.poly.degree(claim.ring.index[name]) % 2
-    for rising in (0,) if is_odd else (1, -1):
-        evidence: dict[str, Json] = {"low": None, "high": None, "rising": rising}
+def by_theorem(made: Made, block: Exists) -> None:
+    """The block's answer in its place, by a theorem of the family that is called like the rule."""
+    for match in matches((made.claim.rule,), block.variables, block.body):
         with suppress(CertificateRejected):
-            taken = by_lemmas("root", root_goals, inner, TRUE, evidence, facts, claim, limits, place)
-            return [*_regrouped(block, middle), taken]
-    raise claim.fail("not shown that the value is taken")
+            return made.by_lemmas("theorem", theorem_goals, block, nnf(match.formula("answer")), match.evidence)
+    raise made.claim.fail("not an instance of a theorem")
 
 
-def exchanged(claim: Claim, context: Context, limits: Limits) -> list[Json]:
+def _alone(made: Made, entry: Entry) -> tuple[Exists, Formula]:
+    """A variable that one condition looks at: that in a block of its own, now a part of the block of the others."""
+    block, name, _ = made.claim.variable(entry)
+    part = next((f for f in conjuncts(block.body) if name in f.free), TRUE)
+    inner = Exists((name,), part)
+    others = conj(inner if f is part else f for f in conjuncts(block.body))
+    made.moved(block, quantified([v for v in block.variables if v != name], others))  # one inside the other stays so
+    return inner, part
+
+
+def square_alone(made: Made, after: Formula) -> None:
+    """A variable that one condition looks at, as a parabola: that condition in a block of its own, by a theorem."""
+    by_theorem(made, _alone(made, only(made.claim, "variable")[0])[0])
+
+
+def value_taken(made: Made, after: Formula) -> None:
+    """A variable of which one comparison alone asks something: a value far out, or a root, meets it."""
+    variable = only(made.claim, "variable", optional=("theory",))[0]
+    inner, part = _alone(made, variable)
+    is_odd = isinstance(part, Atom) and part.poly.degree(made.ring.index[variable.text()]) % 2
+    for rising in (0,) if is_odd else (1, -1):
+        with suppress(CertificateRejected):
+            return made.by_lemmas("root", root_goals, inner, TRUE, {"low": None, "high": None, "rising": rising})
+    raise made.claim.fail("not shown that the value is taken")
+
+
+def exchanged(made: Made, after: Formula) -> None:
     """The sum and the product of two variables in their place, which get two names that are free in the ring."""
-    (listed,) = only(claim, "variables")
-    names, fresh = [entry.text() for entry in listed.items()], [name for name in FRESH if name in claim.ring.index]
-    if len(names) != 2 or len(fresh) != 2 or not set(names) <= claim.ring.index.keys() - {*FRESH}:
+    (listed,) = only(made.claim, "variables")
+    ring, before = made.ring, made.current
+    names, fresh = [entry.text() for entry in listed.items()], [name for name in FRESH if name in ring.index]
+    if len(names) != 2 or len(fresh) != 2 or not set(names) <= ring.index.keys() - {*FRESH}:
         raise listed.fail("expected two variables, and two names for their sum and product in the order")
     (x, y), (z, w) = names, fresh
-    (before, after), ring = existential(claim), claim.ring
     if not isinstance(before, Exists) or not isinstance(after, Exists):
-        raise claim.fail("two blocks expected")
+        raise made.claim.fail("two blocks expected")
     one, other = ring.var(z), ring.var(w)
     by = {ring.index[x]: one + other, ring.index[y]: one * other}
     apart_by = {ring.index[x]: one, ring.index[y]: other}
@@ -117,29 +100,12 @@ def exchanged(claim: Claim, context: Context, limits: Limits) -> list[Json]:
     values = [value(equation, v) for v, equation in zip((x, y), sums, strict=True)]
     named = Exists(tuple(dict.fromkeys((*apart, *after.variables))), conj((*sums, *conjuncts(after.body))))
     inner = Exists((z, w), conj(sums))
-    middle = exists(after.variables, conj((*conjuncts(after.body), inner)))
     back = written("linear equation solved", (), named, image, (), {"solved": values, "theory": EMPTY})
-    place = (0, len(conjuncts(after.body)))
-    theorem = next(by_theorems(inner, (), claim, limits, place), None)
-    if theorem is None:
-        raise claim.fail("not an instance of a theorem")
-    return [
-        written("quantifiers", (), before, renamed, (), {}),
-        simplified(renamed, image, (), claim, limits),
-        written("converse", (), image, named, (), {"steps": [back]}),
-        written("quantifiers", (), named, middle, (), {}),
-        theorem[0],
-    ]
-
-
-def _regrouped(before: Formula, after: Formula) -> list[Json]:
-    """A step that moves quantifiers, unless nothing moves."""
-    return [] if before == after else [written("quantifiers", (), before, after, (), {})]
-
-
-def simplified(before: Formula, after: Formula, context: Context, claim: Claim, limits: Limits) -> Json:
-    """A step that signs of polynomials prove."""
-    return by_lemmas("signs", block_goals, before, after, {}, context, claim, limits)
+    made.moved(before, renamed)
+    made.simplified(renamed, image)
+    made.step("converse", image, named, {"steps": [back]})
+    made.moved(named, exists(after.variables, conj((*conjuncts(after.body), inner))))
+    by_theorem(made, inner)
 
 
 def _at(quotient: Quotient, terms: Mapping[int, Quotient]) -> Quotient:
@@ -150,22 +116,23 @@ def _at(quotient: Quotient, terms: Mapping[int, Quotient]) -> Quotient:
     return at_terms(top, terms), bottom * lead**even
 
 
-def witness(claim: Claim, context: Context, limits: Limits) -> list[Json]:
+def witness(made: Made, after: Formula) -> None:
     """Terms in the parameters that satisfy a block."""
+    claim, ring = made.claim, made.ring
     equations, block = only(claim, "equations", optional=("theory",))[0], claim.block()
     there: dict[str, Quotient] = {}
     for entry in equations.items():
         pivot = term(entry, block.variables, block.body, claim)
-        one = {claim.ring.index[pivot.name]: (-pivot.rest, pivot.lead)}
+        one = {ring.index[pivot.name]: (-pivot.rest, pivot.lead)}
         there = {name: _at(quotient, one) for name, quotient in there.items()}
         there[pivot.name] = (-pivot.rest, pivot.lead)
-    return [terms(claim.before, TRUE, there, {}, context, claim, limits)]
+    made.terms(block, TRUE, there, {})
 
 
-def sheared(claim: Claim, context: Context, limits: Limits) -> list[Json]:
+def sheared(made: Made, after: Formula) -> None:
     """m*x + n as the new x; where m may vanish, the case that it does stays as it is."""
-    variable, form = only(claim, "variable", "form")
-    (block, name, x), ring = claim.variable(variable), claim.ring
+    variable, form = only(made.claim, "variable", "form")
+    (block, name, x), ring = made.claim.variable(variable), made.ring
     linear = form.polynomial(ring)
     if linear.degree(x) != 1:
         raise form.fail("expected a polynomial of degree 1 in the variable")
@@ -174,18 +141,16 @@ def sheared(claim: Claim, context: Context, limits: Limits) -> list[Json]:
         m, n = -m, -n
     there, back = {name: (ring.gen(x) - n, m)}, {name: (m * ring.gen(x) + n, ring.constant(1))}
     if m.is_constant:
-        return [terms(block, claim.after, there, back, context, claim, limits)]
-    if not isinstance(claim.after, Or):
-        raise claim.fail("two cases expected")
+        return made.terms(block, after, there, back)
     cases = [exists(block.variables, conj((atom(m, rel), block.body))) for rel in (Relation.NE, Relation.EQ)]
-    regular = next(part for part in claim.after.args if part != cases[1])
-    middle = disj(cases)
-    inner = terms(cases[0], regular, there, back, (), claim, limits, place=(0,))
-    return [simplified(block, middle, context, claim, limits), inner]
+    regular = next((part for part in disjuncts(after) if part != cases[1]), after)
+    made.simplified(block, disj(cases))
+    return made.terms(cases[0], regular, there, back)
 
 
-def positioned(claim: Claim, context: Context, limits: Limits) -> list[Json]:
+def positioned(made: Made, after: Formula) -> None:
     """Affine coordinates in place of the variables of a block, by one variable after the other."""
+    claim, index = made.claim, made.ring.index
     there: dict[str, Quotient] = {}
     back: dict[str, Quotient] = {}
     for entry in only(claim, "values")[0].items():
@@ -196,12 +161,11 @@ def positioned(claim: Claim, context: Context, limits: Limits) -> list[Json]:
         if not lead:
             raise entry.fail("expected a form in the variable")
         value = _linear(form, {}, claim)
-        there = {v: _at(q, {claim.ring.index[name]: value}) for v, q in there.items()}
+        there = {v: _at(q, {index[name]: value}) for v, q in there.items()}
         there.setdefault(name, value)
         inverse = {v: -c / lead for v, c in form.items()} | {name: 1 / lead}
         back[name] = _linear(inverse, back, claim)
-    before, after = existential(claim)
-    return [terms(before, after, there, back, context, claim, limits)]
+    made.terms(made.current, after, there, back)
 
 
 def _linear(form: Mapping[str, Fraction], values: Mapping[str, Quotient], claim: Claim) -> Quotient:
@@ -220,9 +184,9 @@ def _linear(form: Mapping[str, Fraction], values: Mapping[str, Quotient], claim:
     return top, ring.constant(whole)
 
 
-def distributed(claim: Claim, context: Context, limits: Limits) -> list[Json]:
+def distributed(made: Made, after: Formula) -> None:
     """A block that goes into a disjunction."""
-    return [simplified(claim.before, claim.after, (), claim, limits)]
+    made.simplified(made.current, after)
 
 
 NAMING = frozenset(
@@ -262,15 +226,19 @@ _BY_RULE: Mapping[str, Elaborator] = {
 }
 
 
-def _from_normal(elaborator: Elaborator) -> Elaborator:
-    """An existential block is one with its negations in the atoms, as the kernel's steps begin with it."""
+def _steps(elaborator: Elaborator) -> Callable[[Claim, Context, Limits], list[Json]]:
+    """The steps from the formula before to that after. An existential block is one with its negations in the atoms, as
+    the kernel's steps begin with it."""
 
     def made(claim: Claim, context: Context, limits: Limits) -> list[Json]:
+        before, after = existential(claim)
         if isinstance(claim.before, Exists):
-            claim = replace(claim, before=normal(claim.before), after=normal(claim.after))
-        return elaborator(claim, context, limits)
+            claim = replace(claim, before=before, after=after)
+        steps = Made(claim, limits, before, context)
+        elaborator(steps, after)
+        return steps.finished(after)
 
     return made
 
 
-ELABORATORS: Mapping[str, Elaborator] = {rule: _from_normal(elaborator) for rule, elaborator in _BY_RULE.items()}
+ELABORATORS = {rule: _steps(elaborator) for rule, elaborator in _BY_RULE.items()}

@@ -5,9 +5,8 @@ from __future__ import annotations
 from qe.formula.build import conj, disj, exists
 from qe.formula.syntax import FALSE, TRUE, And, Atom, Exists, Formula, Not
 from qe.formula.traverse import atoms, conjuncts, disjuncts
-from qe.kernel.block import existential
 from qe.kernel.negation import negation
-from qe.kernel.step import Claim, Context, Limits, only, outside
+from qe.kernel.step import only, outside
 from qe.kernel.virtual_substitution import TestPoint, put
 from qe.proof.entry import Json, formula_from_json
 from qe.proving.expansions import monomials
@@ -15,15 +14,15 @@ from qe.proving.lemma_list import identities
 from qe.proving.made import Made, by_signs
 
 
-def infinity_first(claim: Claim, context: Context, limits: Limits) -> list[Json]:
+def infinity_first(made: Made, after: Formula) -> None:
     """Either end where it is a solution, and what remains in cases of a sign."""
-    variable, cases, parts = only(claim, "variable", "cases", "parts")
-    (before, after), name, ring = existential(claim), variable.text(), claim.ring
+    variable, cases, parts = only(made.claim, "variable", "cases", "parts")
+    before, name, ring, limits = made.current, variable.text(), made.ring, made.limits
     first, *others = parts.items()
     listed = [formula_from_json(entry, ring) for entry in cases.items()]
     if not isinstance(before, Exists) or before.variables != (name,) or len(listed) != len(others):
         raise variable.fail("expected the one variable of a block, and steps for each case")
-    made = Made(claim, limits, before, outside(context, (name,)))
+    made.known = outside(made.known, (name,))
     ends = {side: put(before.body, ring.index[name], TestPoint((), 0, side)) for side in (-1, 1)}
     far = disj(ends.values())
     rest = exists((name,), conj((before.body, negation(far))))
@@ -48,7 +47,6 @@ def infinity_first(claim: Claim, context: Context, limits: Limits) -> list[Json]
         end = limits.replay(steps, start, made.known, ring)
         if start in disjuncts(made.current):
             made.derived(start, end, steps.value)
-    return made.finished(after)
 
 
 def _taken(made: Made, block: Exists, name: str, side: int, end: Formula) -> None:
@@ -61,10 +59,10 @@ def _taken(made: Made, block: Exists, name: str, side: int, end: Formula) -> Non
     made.step("elimination set", block, TRUE, {**evidence, "points": [tried], "parts": [steps]}, known)
 
 
-def zeros(claim: Claim, context: Context, limits: Limits) -> list[Json]:
+def zeros(made: Made, after: Formula) -> None:
     """Which variables are 0 decides the terms of the polynomials, one by one."""
-    only(claim)
-    (before, after), ring = existential(claim), claim.ring
+    only(made.claim)
+    before = made.current
     polys = dict.fromkeys(a.poly for side in (before, after) for a in atoms(side) if isinstance(a, Atom))
-    lemmas = identities(([(-1, ((poly, 1),)), *monomials(poly)] for poly in polys), ring)
-    return [by_signs(claim, limits, before, after, context, lemmas)]
+    lemmas = identities(([(-1, ((poly, 1),)), *monomials(poly)] for poly in polys), made.ring)
+    made.signs(before, after, lemmas, made.known)

@@ -6,11 +6,10 @@ from collections.abc import Mapping, Sequence
 
 from qe.exact.ring import Poly, Ring
 from qe.formula.build import conj, exists
-from qe.formula.syntax import Atom, Exists, Relation
+from qe.formula.syntax import Atom, Exists, Formula, Relation
 from qe.formula.traverse import conjuncts
-from qe.kernel.block import existential
 from qe.kernel.statements import theorem
-from qe.kernel.step import Claim, Context, Limits, only
+from qe.kernel.step import only
 from qe.kernel.theorem import theorem_goals
 from qe.proof.entry import Json, formula_from_json, poly_to_text
 from qe.proving.lemma_list import Term, identities
@@ -19,19 +18,19 @@ from qe.proving.made import Made, equal
 EQ = Relation.EQ
 
 
-def named(claim: Claim, context: Context, limits: Limits) -> list[Json]:
+def named(made: Made, after: Formula) -> None:
     """Conditions on a form become conditions on its name, by the equations beside them."""
-    numbers = [entry.rational() for entry in only(claim, "scales")[0].items()]
-    (before, after), ring = existential(claim), claim.ring
+    numbers = [entry.rational() for entry in only(made.claim, "scales")[0].items()]
+    before, ring = made.current, made.ring
     if not isinstance(before, Exists) or not isinstance(after, Exists):
-        raise claim.fail("two blocks expected")
+        raise made.claim.fail("two blocks expected")
     name = after.variables[0]
     outer = [part for part in conjuncts(after.body) if isinstance(part, Atom)]
     inner = next((part for part in conjuncts(after.body) if isinstance(part, Exists)), None)
     parts = () if inner is None else conjuncts(inner.body)
     naming = next((part for part in parts if isinstance(part, Atom) and name in part.free), None)
     if inner is None or naming is None:
-        raise claim.fail("one block next to the others, with an equation that names the form, expected")
+        raise made.claim.fail("one block next to the others, with an equation that names the form, expected")
     beside = [part for part in conjuncts(inner.body) if part != naming]
     given = [part for part in conjuncts(before.body) if part not in beside]
     y = ring.index[name]
@@ -52,23 +51,20 @@ def named(claim: Claim, context: Context, limits: Limits) -> list[Json]:
                 terms += [(-1, ((difference.exact_divide(line), 1), (line, 1)))] if line is not None else []
                 break
         listed.append(terms)
-    made = Made(claim, limits, before, context)
     names = (name, *before.variables)
     whole = exists(names, conj((naming, before.body)))
     moved = exists(names, conj((naming, *beside, *outer)))
     made.named(before, whole, name, naming)
     made.signs(whole, moved, identities(listed, ring))
-    return made.finished(after)
 
 
-def seen_along(claim: Claim, context: Context, limits: Limits) -> list[Json]:
+def seen_along(made: Made, after: Formula) -> None:
     """The form gets a name, and a theorem says which values it has on the sphere or ball."""
-    given, listed, entry = only(claim, "sphere", "variables", "form")
-    before, after, names, ring = claim.block(), claim.after, listed.names(), claim.ring
+    given, listed, entry = only(made.claim, "sphere", "variables", "form")
+    before, names, ring = made.claim.block(), listed.names(), made.ring
     part, form = formula_from_json(given, ring), entry.polynomial(ring)
     if not isinstance(part, Atom) or not isinstance(after, Exists) or not {*names} <= {*before.variables}:
         raise given.fail("a comparison expected, and variables of the block")
-    made = Made(claim, limits, before, context)
     t, first = made.fresh(), ring.index[names[0]]
     letters, relation = _letters(part, form, [ring.index[v] for v in names], ring.var(t))
     strict = relation is Relation.LT
@@ -93,7 +89,6 @@ def seen_along(claim: Claim, context: Context, limits: Limits) -> list[Json]:
     made.by_lemmas("theorem", theorem_goals, inner, answer, {**evidence, "variables": dict(variables)})
     if not {*conjuncts(answer)} <= {*conjuncts(final)}:  # the radius follows
         made.signs(values, exists(outer, final), _radius(letters, len(names), ring))
-    return made.finished(after)
 
 
 def _letters(part: Atom, form: Poly, indices: Sequence[int], value: Poly) -> tuple[dict[str, Poly], Relation]:

@@ -9,29 +9,29 @@ from dataclasses import replace
 from qe.formula.build import atom, conj, disj, exists
 from qe.formula.syntax import Formula, Relation
 from qe.kernel.linear_equation import Pivot, pivot_of, substituted
-from qe.kernel.step import Claim, Context, Limits, only
+from qe.kernel.step import Claim, only
 from qe.proof.entry import Entry, Json, poly_to_text, polynomial_from_json
 from qe.proving.lemma_list import EMPTY, Term, identities
 from qe.proving.made import Made
 
 
-def guarded(claim: Claim, context: Context, limits: Limits) -> list[Json]:
+def guarded(made: Made, after: Formula) -> None:
     """The coefficient of an equation is not 0, or it vanishes with the rest of it; where it is not, x is put in."""
+    claim = made.claim
     (entry,) = only(claim, "solved")[0].row("equation")
-    block, body, made = claim.block().variables, claim.block().body, Made(claim, limits, claim.before, context)
+    block, body = claim.block().variables, claim.block().body
     pivot = pivot_of(entry, block, body, claim)
     lead, rest = pivot.lead, pivot.rest
     regular = exists(block, conj((atom(lead, Relation.NE), body)))
     vanishing = exists(block, conj((atom(lead, Relation.EQ), atom(rest, Relation.EQ), pivot.others)))
     image = conj((atom(lead, Relation.NE), substituted(replace(pivot, sign=0), claim)))
-    after = exists([v for v in block if v != pivot.name], image)
+    solved = exists([v for v in block if v != pivot.name], image)
     x = claim.ring.gen(pivot.x)
     sum_of: list[Term] = [(1, ((pivot.equation, 1),)), (-1, ((lead, 1), (x, 1))), (-1, ((rest, 1),))]
     lemmas = identities([sum_of], claim.ring)
     made.signs(claim.before, disj((regular, vanishing)), lemmas)
-    solved: Json = {"solved": [[pivot.name, poly_to_text(pivot.equation), 0]], "theory": EMPTY}
-    made.step("linear equation solved", regular, after, solved)
-    return made.finished(claim.after)
+    evidence: Json = {"solved": [[pivot.name, poly_to_text(pivot.equation), 0]], "theory": EMPTY}
+    made.step("linear equation solved", regular, solved, evidence)
 
 
 def term(entry: Entry, names: Sequence[str], others: Formula, claim: Claim) -> Pivot:

@@ -69,9 +69,11 @@ class Made:
             raise self.claim.fail("no name is free")
         return name
 
-    def step(self, rule: str, before: Formula, after: Formula, evidence: Json, used: Context = ()) -> None:
-        """Any step, at the first place where ``before`` stands."""
-        place = self.place(before)
+    def step(
+        self, rule: str, before: Formula, after: Formula, evidence: Json, used: Context = (), place: Place | None = None
+    ) -> None:
+        """Any step, at a place, or the first one where ``before`` stands."""
+        place = self.place(before) if place is None else place
         changed = self.beside(place, before, after)[1]
         if before != after:
             self.steps.append(written(rule, place, before, after, used, evidence))
@@ -149,12 +151,17 @@ class Made:
         there: Mapping[str, Quotient],
         back: Mapping[str, Quotient],
         lemmas: Json = None,
+        place: Place | None = None,
+        used: Context | None = None,
     ) -> None:
-        """A change of variables by these terms; the lemmas are looked for where none are given, with what stands
-        beside it."""
-        evidence = terms_evidence(there, back)
+        """A change of variables by these terms; the lemmas are looked for where none are given, with what is used of
+        what stands beside it (all of it)."""
+        evidence: dict[str, Json] = {
+            name: [[v, poly_to_text(top), poly_to_text(bottom)] for v, (top, bottom) in of.items()]
+            for name, of in (("there", there), ("back", back))
+        }
         if lemmas is None:
-            return self.by_lemmas("terms", terms_goals, before, after, evidence)
+            return self.by_lemmas("terms", terms_goals, before, after, evidence, place, used)
         goals = terms_goals(self._step("terms", before, after, {**evidence, "theory": lemmas}), ())
         theory = with_cases(lemmas, goals, self.ring, self.limits)
         if theory is None:
@@ -170,13 +177,23 @@ class Made:
         self.by_lemmas("root", root_goals, block, TRUE, {"low": start, "high": None, "rising": sign})
 
     def by_lemmas(
-        self, rule: str, obligations: Obligations, before: Formula, after: Formula, evidence: dict[str, Json]
+        self,
+        rule: str,
+        obligations: Obligations,
+        before: Formula,
+        after: Formula,
+        evidence: Mapping[str, Json],
+        place: Place | None = None,
+        used: Context | None = None,
     ) -> None:
-        """A step whose obligations follow from signs, with what stands beside it."""
-        facts = self.beside(self.place(before), before, after)[0]
-        step = by_lemmas(rule, obligations, before, after, evidence, facts, self.claim, self.limits)
-        assert isinstance(step, dict)
-        self.step(rule, before, after, step["evidence"], facts)
+        """A step whose obligations follow from signs, with what is used of what stands beside it (all of it)."""
+        place = self.place(before) if place is None else place
+        facts = self.beside(place, before, after)[0] if used is None else used
+        goals = obligations(self._step(rule, before, after, {**evidence, "theory": EMPTY}), facts)
+        lemmas = refuting(goals, self.ring, self.limits) if goals else EMPTY
+        if lemmas is None:
+            raise self.claim.fail("no lemmas show what has to be shown")
+        self.step(rule, before, after, {**evidence, "theory": lemmas}, facts, place)
 
     def _step(self, rule: str, before: Formula, after: Formula, evidence: Json) -> Claim:
         return replace(self.claim, rule=rule, before=before, after=after, evidence=Entry(evidence, self.claim.path))
@@ -193,50 +210,6 @@ def _place(formula: Formula, part: Formula) -> Place | None:
                 return place
         level = [((*place, k), child) for place, node in level for k, child in enumerate(children(node))]
     return None
-
-
-def by_lemmas(
-    rule: str,
-    obligations: Obligations,
-    before: Formula,
-    after: Formula,
-    evidence: Mapping[str, Json],
-    context: Context,
-    claim: Claim,
-    limits: Limits,
-    place: Place = (),
-) -> Json:
-    """A step whose obligations follow from signs; ``CertificateRejected`` where no lemmas show it."""
-    given = Entry({**evidence, "theory": EMPTY}, claim.path)
-    goals = obligations(replace(claim, rule=rule, before=before, after=after, evidence=given), context)
-    lemmas = refuting(goals, claim.ring, limits) if goals else EMPTY
-    if lemmas is None:
-        raise claim.fail("no lemmas show what has to be shown")
-    return written(rule, place, before, after, context, {**evidence, "theory": lemmas})
-
-
-def terms(
-    before: Formula,
-    after: Formula,
-    there: Mapping[str, Quotient],
-    back: Mapping[str, Quotient],
-    context: Context,
-    claim: Claim,
-    limits: Limits,
-    place: Place = (),
-) -> Json:
-    """A change of variables by these terms."""
-    evidence = terms_evidence(there, back)
-    return by_lemmas("terms", terms_goals, before, after, evidence, context, claim, limits, place)
-
-
-def terms_evidence(there: Mapping[str, Quotient], back: Mapping[str, Quotient]) -> dict[str, Json]:
-    """Terms as evidence has them."""
-    named = {"there": there, "back": back}
-    return {
-        name: [[v, poly_to_text(top), poly_to_text(bottom)] for v, (top, bottom) in of.items()]
-        for name, of in named.items()
-    }
 
 
 def solved(equation: Atom, name: str) -> Json:

@@ -8,10 +8,9 @@ from qe.exact.ring import Poly
 from qe.formula.build import conj, exists, forall
 from qe.formula.syntax import Atom, Exists, ForAll, Formula
 from qe.formula.traverse import atoms, conjuncts
-from qe.kernel.block import existential
-from qe.kernel.step import Claim, Context, Limits, only
+from qe.kernel.step import Claim, only
 from qe.kernel.terms import Quotient, at_terms
-from qe.proof.entry import Entry, Json
+from qe.proof.entry import Entry
 from qe.proving.lemma_list import Term, identities
 from qe.proving.made import Made
 
@@ -19,15 +18,14 @@ Images = Mapping[str, Poly]
 Terms = Mapping[int, Quotient]
 
 
-def mirrored(claim: Claim, context: Context, limits: Limits) -> list[Json]:
+def mirrored(made: Made, after: Formula) -> None:
     """The middle of a solution and its image is a solution, and one that the mirror leaves alone."""
-    (before, after), ring = existential(claim), claim.ring
-    images = _images(only(claim, "mirror")[0], claim)
-    made = Made(claim, limits, before, context)
+    before, ring = made.current, made.ring
+    images = _images(only(made.claim, "mirror")[0], made.claim)
     block, wanted = (_gathered(f, images) for f in (before, after))
     made.moved(before, block)
     if not isinstance(block, Exists):
-        raise claim.fail("a block expected")
+        raise made.claim.fail("a block expected")
     names, one, two = block.variables, ring.constant(1), ring.constant(2)
     here = {name: image for name, image in images.items() if name in names and image != ring.var(name)}
     centre = {name: (ring.var(name) + image, two) for name, image in here.items()}
@@ -43,7 +41,6 @@ def mirrored(claim: Claim, context: Context, limits: Limits) -> list[Json]:
     middle = exists(names, conj((inner.body, *(_put(f, centre, made) for f in plain))))
     _follow(made, inner, middle, plain, here, centre)
     made.terms(middle, wanted, fixed, {name: centre[name] for name in here if name not in gone})
-    return made.finished(after)
 
 
 def _gathered(formula: Formula, images: Images) -> Formula:

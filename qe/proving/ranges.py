@@ -14,14 +14,13 @@ from itertools import permutations
 from math import inf, lcm, prod
 
 from qe.exact.ring import Poly
-from qe.formula.syntax import FALSE, Atom, Exists, Relation
+from qe.formula.syntax import FALSE, Atom, Exists, Formula, Relation
 from qe.formula.traverse import conjuncts
-from qe.kernel.block import existential
 from qe.kernel.limits import check_value
-from qe.kernel.step import Claim, Context, Limits, only
+from qe.kernel.step import Claim, only
 from qe.proof.entry import Entry, Json
 from qe.proving.lemma_list import Lemmas, Term
-from qe.proving.made import by_signs
+from qe.proving.made import Made
 from qe.simplifier.facts import factor_list
 
 Number = Fraction | float
@@ -32,27 +31,27 @@ Powers = tuple[tuple[Poly, int], ...]
 EVERYTHING: Ends = (-inf, inf)
 
 
-def by_ranges(claim: Claim, context: Context, limits: Limits) -> list[Json]:
+def by_ranges(made: Made, after: Formula) -> None:
     """A conjunction that fails within bounds that follow from it."""
+    claim, before = made.claim, made.current
     listed, last = only(claim, "bounds", "fails")
-    before, after = existential(claim)
     if after != FALSE or not isinstance(before, Exists):
         raise claim.fail("a block that is replaced by FALSE expected")
-    made, parts = _Ranges(claim), conjuncts(before.body)
+    ranges, parts = _Ranges(claim), conjuncts(before.body)
     for entry in listed.items():
-        limits.tick()
+        made.limits.tick()
         condition, name, power, side, value = entry.row("condition", "variable", "power", "side", "value")
         i = claim.ring.index.get(name.text())
         if i is None or side.integer(-1) not in (1, -1):
             raise entry.fail("a variable and a side expected")
         for poly in _at_most_zero(parts, condition):
-            made.follow(poly, i, power.integer(1))
-        low, high = made.ends.get(i, EVERYTHING)
-        made.ends[i] = (low, value.rational()) if side.integer(-1) == 1 else (value.rational(), high)
-        made.about(claim.ring.gen(i) * value.rational().denominator - value.rational().numerator)
+            ranges.follow(poly, i, power.integer(1))
+        low, high = ranges.ends.get(i, EVERYTHING)
+        ranges.ends[i] = (low, value.rational()) if side.integer(-1) == 1 else (value.rational(), high)
+        ranges.about(claim.ring.gen(i) * value.rational().denominator - value.rational().numerator)
     for poly in _at_most_zero(parts, last):
-        made.follow(poly, None, 0)
-    return [by_signs(claim, limits, before, after, context, made.evidence())]
+        ranges.follow(poly, None, 0)
+    made.signs(before, after, ranges.evidence(), made.known)
 
 
 def _at_most_zero(parts: tuple[object, ...], entry: Entry) -> Iterator[Poly]:

@@ -13,25 +13,26 @@ from qe.exact.ring import Poly, Ring
 from qe.formula.build import atom, conj, disj, exists
 from qe.formula.syntax import TRUE, Atom, Exists, ForAll, Formula, Relation
 from qe.formula.traverse import children, disjuncts, map_atoms, with_child
-from qe.kernel.step import Claim, Context, Limits, only
+from qe.kernel.step import Claim, Context, only
 from qe.kernel.terms import Quotient, at_terms
-from qe.proof.entry import Entry, Json
-from qe.proving.made import Made, at_number, solved, terms
+from qe.proof.entry import Entry
+from qe.proof.step import Place
+from qe.proving.made import Made, at_number, solved
 from qe.proving.shifts import lower
 
 _SIDE = {1: Relation.GT, 0: Relation.EQ, -1: Relation.LT}
 
 
-def scaled(claim: Claim, context: Context, limits: Limits) -> list[Json]:
+def scaled(made: Made, goal: Formula) -> None:
     """The cases of the sign of a variable, in each of which the others are measured in powers of it, or of its root."""
+    claim, ring = made.claim, made.ring
     variable, weights, values, _ = only(claim, "variable", "weights", "values", optional=("theory",))
-    (block, name, x), ring = claim.variable(variable), claim.ring
+    block, name, x = claim.variable(variable)
     powers = moves(weights, name, claim)
     root = lcm(*(power.denominator for power in powers.values()))
     rest, one = [v for v in block.variables if v != name], ring.constant(1)
     cases = [(s, exists(block.variables, conj((atom(ring.gen(x), _SIDE[s]), block.body)))) for s in (1, 0, -1)]
     kept = [case for case in cases if case[0] in {entry.integer(-1) for entry in values.items()}]
-    made = Made(claim, limits, block, context)
     made.simplified(block, disj(case for _, case in kept))
     for s, case in kept:
         after, side = exists(rest, at_number(block.body, x, s)), s
@@ -49,7 +50,7 @@ def scaled(claim: Claim, context: Context, limits: Limits) -> list[Json]:
         if root > 1:
             high = exists(block.variables, conj((atom(ring.gen(x), _SIDE[side]), _with(body, x, ring.gen(x) ** root))))
             assert isinstance(high, Exists)
-            lowering = Made(claim, limits, high)
+            lowering = Made(claim, made.limits, high)
             lower(lowering, high, case, name, root)
             made.back(case, high, lowering)
             case = high
@@ -57,30 +58,26 @@ def scaled(claim: Claim, context: Context, limits: Limits) -> list[Json]:
         times = {v: _times(ring, v, unit, power) for v, power in whole.items()}
         back = {v: _times(ring, v, unit, -power) for v, power in whole.items()}
         known = (atom(ring.gen(x), _SIDE[side]),)
-        place = made.place(case)
-        moved = moved_inside(case, place, times, back, known, made.steps, claim, limits, start=True)
-        made.current = made.beside(place, case, moved)[1]
+        moved = moved_inside(made, case, made.place(case), times, back, known, start=True)
         image = _image(after, {v: q for v, q in back.items() if v in rest}, known, rest, ring)
         regular = exists(block.variables, conj((*known, image)))
         made.simplified(moved, regular)
         outer = {v: q for v, q in back.items() if v in rest}
         made.terms(regular, after, {name: (one * side, one)}, outer)
-    return made.finished(claim.after)
 
 
-def translated(claim: Claim, context: Context, limits: Limits) -> list[Json]:
+def translated(made: Made, goal: Formula) -> None:
     """A variable at 0, the others moved along; those bound inside first."""
-    variable, weights = only(claim, "variable", "weights")
-    (block, name, x), ring = claim.variable(variable), claim.ring
-    steps, others = list[Json](), moves(weights, name, claim)
+    variable, weights = only(made.claim, "variable", "weights")
+    (block, name, x), ring = made.claim.variable(variable), made.ring
+    others = moves(weights, name, made.claim)
     there = {v: along(ring, v, by, name) for v, by in others.items()}
     back = {v: along(ring, v, -by, name) for v, by in others.items()}
-    moved = moved_inside(block, (), there, back, (), steps, claim, limits, start=True)
+    moved = moved_inside(made, block, (), there, back, (), start=True)
     rest = [v for v in block.variables if v != name]
     after = exists(rest, at_number(block.body, x, 0))
     outer = {v: q for v, q in back.items() if v in rest}
-    zero = {name: (ring.constant(0), ring.constant(1))}
-    return [*steps, terms(moved, after, zero, outer, (), claim, limits)]
+    made.terms(moved, after, {name: (ring.constant(0), ring.constant(1))}, outer, used=())
 
 
 def moves(weights: Entry, name: str, claim: Claim) -> dict[str, Fraction]:
@@ -93,29 +90,27 @@ def moves(weights: Entry, name: str, claim: Claim) -> dict[str, Fraction]:
 
 
 def moved_inside(
+    made: Made,
     formula: Formula,
-    place: tuple[int, ...],
+    place: Place,
     there: Mapping[str, Quotient],
     back: Mapping[str, Quotient],
     known: Context,
-    steps: list[Json],
-    claim: Claim,
-    limits: Limits,
     *,
     start: bool = False,
 ) -> Formula:
-    """The formula with these terms for the variables that quantifiers inside bind, and the steps to it.
+    """The formula at a place with these terms for the variables that quantifiers inside bind, by steps.
 
     ``start``: the outermost quantifier is left alone.
     """
     if isinstance(formula, Exists | ForAll) and not start and (names := set(formula.variables) & there.keys()):
         inner, outer = ({v: of[v] for v in sorted(names)} for of in (there, back))
-        by = {claim.ring.index[v]: quotient for v, quotient in inner.items()}
+        by = {made.ring.index[v]: quotient for v, quotient in inner.items()}
         moved = map_atoms(formula, lambda a: atom(at_terms(a.poly, by), a.relation))
-        steps.append(terms(formula, moved, inner, outer, known, claim, limits, place))
+        made.terms(formula, moved, inner, outer, place=place, used=known)
         formula = moved
     for k, child in enumerate(children(formula)):
-        changed = moved_inside(child, (*place, k), there, back, known, steps, claim, limits)
+        changed = moved_inside(made, child, (*place, k), there, back, known)
         formula = formula if changed == child else with_child(formula, k, changed)
     return formula
 

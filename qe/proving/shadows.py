@@ -18,11 +18,10 @@ from qe.exact.ring import Poly
 from qe.formula.build import conj, disj
 from qe.formula.syntax import FALSE, TRUE, Atom, Exists, Formula, Relation
 from qe.formula.traverse import conjuncts
-from qe.kernel.block import existential
 from qe.kernel.elimination_points import Tried
 from qe.kernel.elimination_set import start
 from qe.kernel.negation import negation
-from qe.kernel.step import Claim, Context, Limits, only
+from qe.kernel.step import only
 from qe.kernel.virtual_substitution import TestPoint
 from qe.proof.entry import Json
 from qe.proving.elimination_points import point_entry
@@ -37,16 +36,17 @@ MOST_PAIRS, MOST_POINTS = 1000, 30
 has half a million characters, and takes seconds."""
 
 
-def projected(claim: Claim, context: Context, limits: Limits) -> list[Json]:
+def projected(made: Made, after: Formula) -> None:
     """A block over linear equations and inequalities, or with one other condition, linear in its variables."""
-    only(claim)
-    block, after = existential(claim)
+    only(made.claim)
+    block = made.current
     if not isinstance(block, Exists):
-        raise claim.fail("expected a block")
+        raise made.claim.fail("expected a block")
     if not (atoms := linear_atoms(block.body)):
-        return by_vertices(claim, block, context, limits).finished(after)
+        by_vertices(made, block)
+        return
     system = LinearRows.of(atoms)
-    shadow = _Shadow(Made(claim, limits, block, context), system.names)
+    shadow = _Shadow(made, system.names)
     now = shadow.reduced(Polyhedron.of(system))
     unknowns = {j for j, name in enumerate(system.names) if name in block.variables}
     while unknowns and now is not None:
@@ -54,8 +54,7 @@ def projected(claim: Claim, context: Context, limits: Limits) -> list[Json]:
         j = min(unknowns, key=now.growth) if pivot is None else pivot[1]
         now = shadow.combined(now, j) if pivot is None else shadow.solved(now, *pivot)
         unknowns.discard(j)
-    shadow.made.simplified(shadow.made.current, after)
-    return shadow.made.finished(after)
+    made.simplified(made.current, after)
 
 
 @dataclass(slots=True)

@@ -6,20 +6,18 @@ from qe.formula.build import atom, conj, exists
 from qe.formula.syntax import TRUE, Atom, Exists, Formula, Relation
 from qe.formula.traverse import atoms, conjuncts
 from qe.kernel.open_block import generic
-from qe.kernel.step import Claim, Context, Limits, only
+from qe.kernel.step import only
 from qe.proof.certificate import written
 from qe.proof.entry import Json
 from qe.proving.made import Made, equal
 from qe.rules.degree_shift import lowered, values
 
 
-def shifted(claim: Claim, context: Context, limits: Limits) -> list[Json]:
+def shifted(made: Made, after: Formula) -> None:
     """A variable for its power."""
-    variable, exponent, *_ = only(claim, "variable", "exponent", optional=("theory",))
-    block, name, _ = claim.variable(variable)
-    made = Made(claim, limits, block, context)
-    lower(made, block, claim.after, name, exponent.integer(2))
-    return made.finished(claim.after)
+    variable, exponent, *_ = only(made.claim, "variable", "exponent", optional=("theory",))
+    block, name, _ = made.claim.variable(variable)
+    lower(made, block, after, name, exponent.integer(2))
 
 
 def low(body: Formula, x: int, power: int) -> Formula:

@@ -8,18 +8,18 @@ from fractions import Fraction
 from qe.formula.build import atom, conj, disj, exists
 from qe.formula.syntax import FALSE, TRUE, ForAll, Formula, Not, Relation
 from qe.formula.traverse import conjuncts
-from qe.kernel.block import existential
 from qe.kernel.linear_equation import substituted
 from qe.kernel.negation import negation, normal
-from qe.kernel.step import Claim, Context, Limits, only
+from qe.kernel.step import Claim, Limits, only
 from qe.kernel.terms import Quotient
 from qe.proof.entry import Entry, Json
 from qe.proving.linear import term
 from qe.proving.made import Made, at_number, by_signs
 
 
-def degenerate_truth_set(claim: Claim, context: Context, limits: Limits) -> list[Json]:
+def degenerate_truth_set(made: Made, after: Formula) -> None:
     """The block is false off the zeros of the equation, and there the equation may be put in."""
+    claim, limits = made.claim, made.limits
     variable, values, equation, parts = only(claim, "variable", "values", "equation", "parts")
     block, name, ring = normal(claim.before), variable.text(), claim.ring
     if not isinstance(block, ForAll) or block.variables != (name,) or not block.body.is_quantifier_free:
@@ -28,7 +28,6 @@ def degenerate_truth_set(claim: Claim, context: Context, limits: Limits) -> list
     assert isinstance(claim.before, ForAll)
     instances = {v: at_number(claim.before.body, y, v) for v in numbers}  # as the steps begin
     cases: list[Formula] = [TRUE]
-    made = Made(claim, limits, existential(claim)[0], context)
     made.moved(made.current, Not(block))  # both sides as they stand, though the block is universal
     if equation.value is not None:
         pivot = term(equation, block.free, block, claim)
@@ -42,7 +41,6 @@ def degenerate_truth_set(claim: Claim, context: Context, limits: Limits) -> list
         made.step("no exception", conj((case, block)), FALSE, {"exceptions": [refuted]})
     if equation.value is not None:
         made.simplified(block, substituted(pivot, claim))
-    return made.finished(existential(claim)[1])
 
 
 def _refuted(

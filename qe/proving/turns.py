@@ -15,10 +15,9 @@ from qe.exact.ring import Poly
 from qe.formula.build import atom, conj, disj, exists
 from qe.formula.syntax import Exists, Formula, Relation
 from qe.formula.traverse import conjuncts, polynomials
-from qe.kernel.block import existential
-from qe.kernel.step import Claim, Context, Limits, only
+from qe.kernel.step import Claim, only
 from qe.kernel.terms import Quotient, at_terms
-from qe.proof.entry import Entry, Json
+from qe.proof.entry import Entry
 from qe.proving.lemma_list import EMPTY, Term, identities
 from qe.proving.made import Made, at_number
 
@@ -26,21 +25,19 @@ MOST = 24
 """Powers of the length that are tried."""
 
 
-def turned(claim: Claim, context: Context, limits: Limits) -> list[Json]:
+def turned(made: Made, after: Formula) -> None:
     """One turn after the other, for a block without quantifiers inside, whose variables turn with one speed."""
-    before, after = existential(claim)
+    before = made.current
     if not isinstance(before, Exists) or not before.body.is_quantifier_free:
-        raise claim.fail("a block without quantifiers inside expected")
-    made = Made(claim, limits, before, context)
-    turns = [_read(entry, claim) for entry in only(claim, "turns")[0].items()]
+        raise made.claim.fail("a block without quantifiers inside expected")
+    turns = [_read(entry, made.claim) for entry in only(made.claim, "turns")[0].items()]
     for k, turn in enumerate(turns):
         block = made.current
         if not isinstance(block, Exists):
-            raise claim.fail("nothing is left to be turned")
+            raise made.claim.fail("nothing is left to be turned")
         halved = turn.halved(made, block)
         if any(turn.u in {i for pair in later.pairs for i in pair} for later in turns[k + 1 :]):
             turn.unhalved(made, halved)
-    return made.finished(after)
 
 
 def _read(entry: Entry, claim: Claim) -> _Turn:

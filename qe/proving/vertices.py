@@ -22,7 +22,7 @@ from qe.formula.traverse import conjuncts, disjuncts
 from qe.kernel.block import block_goals
 from qe.kernel.boolean import Goal, Search, Theory
 from qe.kernel.signs import read_polynomials
-from qe.kernel.step import Claim, Context, Limits
+from qe.kernel.step import Limits
 from qe.kernel.terms import Quotient, at_terms
 from qe.proof.entry import Entry, Json
 from qe.proving.lemma_list import EMPTY, Term, identities
@@ -33,25 +33,24 @@ Bound = tuple[Poly, int, bool]
 """A polynomial over a positive number, and whether it is strict."""
 
 
-def by_vertices(claim: Claim, block: Exists, context: Context, limits: Limits) -> Made:
+def by_vertices(made: Made, block: Exists) -> None:
     """A block over linear conditions with numbers and one with parameters, one polyhedron after the other."""
-    made, parts = Made(claim, limits, block, context), on_polyhedra(Block(block.variables, block.body))
+    parts = on_polyhedra(Block(block.variables, block.body))
     if parts is None:
-        raise claim.fail("expected linear conditions with numbers as coefficients, and one other")
+        raise made.claim.fail("expected linear conditions with numbers as coefficients, and one other")
     current, joined = parts
     rest, names = [f for f in conjuncts(block.body) if f != current], list(block.variables)
     for own, conditions in joined:
         rest, names = [f for f in rest if f not in conditions], [v for v in names if v not in own]
         inner = quantified(own, conj((*conditions, current)))
         made.moved(made.current, quantified(names, conj((*rest, inner))))
-        polyhedron = Generated.of(own, conditions, limits.tick)
+        polyhedron = Generated.of(own, conditions, made.limits.tick)
         if polyhedron is None or current == FALSE:
             made.simplified(made.current, FALSE)
             break
         cases = {case: quantified(own, conj((*conditions, case))) for case in disjuncts(current)}
         made.signs(inner, disj(cases.values()))
         current = disj(_ended(made, polyhedron, *case) for case in cases.items())
-    return made
 
 
 def _ended(made: Made, polyhedron: Generated, given: Formula, block: Formula) -> Formula:
