@@ -17,8 +17,8 @@ from qe.exact.ring import Poly, Ring
 from qe.formula.build import atom
 from qe.formula.syntax import FALSE, Atom, Formula, Relation
 from qe.options import Budget
-from qe.proof.multipliers import Face, FormRelation, LinearEquation, derived_equations
-from qe.rules.linear import Pivot, substitute
+from qe.proof.multipliers import Face, FormRelation, derived_equations
+from qe.rules.linear import put_in
 from qe.simplifier.simplify import simplify
 
 
@@ -40,11 +40,9 @@ def on_flat(variables: Sequence[str], body: Formula, *, budget: Budget) -> tuple
         names = [equation.poly.ring.names[i] for i in equation.poly.variables]
         name = next((n for n in names if n in variables), names[0])
         i = equation.poly.ring.index[name]
-        constant, lead = equation.poly.coefficients(i)
-        pivot = Pivot(k, i, lead, constant, 1 if lead.constant_value() > 0 else -1, False)
         if name not in variables:
             outside.append(equation)
-        replaced = [g for f in (rest, *equations[k + 1 :]) if (g := substitute(f, pivot)) is not None]
+        replaced = [g for f in (rest, *equations[k + 1 :]) if (g := put_in(f, i, equation.poly)) is not None]
         if len(replaced) < len(equations) - k:
             return None
         rest, *equations[k + 1 :] = replaced
@@ -72,7 +70,7 @@ def implied_equations(conditions: Formula, *, budget: Budget) -> list[Poly] | No
         return None
     violation = None if witness is not None else _least_violation(forms, budget)
     equations = [] if violation is None else _equations(violation, forms)
-    return [_poly(e, system.names, ring) for e in equations if any(e.row)]
+    return [_poly(e, system.names, ring) for e in equations if any(e.gradient)]
 
 
 def _least_violation(forms: Sequence[Quadratic], budget: Budget) -> Kkt | None:
@@ -89,7 +87,7 @@ def _least_violation(forms: Sequence[Quadratic], budget: Budget) -> Kkt | None:
     return Kkt(kkt.field, kkt.point[:-1], multipliers, kkt.unique)
 
 
-def _equations(kkt: Kkt, forms: Sequence[Quadratic]) -> list[LinearEquation]:
+def _equations(kkt: Kkt, forms: Sequence[Quadratic]) -> list[Quadratic]:
     place, weights = rational_numbers(kkt.point), rational_numbers(list(kkt.multipliers.values()))
     if place is None or weights is None:
         return []
@@ -98,10 +96,10 @@ def _equations(kkt: Kkt, forms: Sequence[Quadratic]) -> list[LinearEquation]:
     return derived_equations(face, forms, [FormRelation.LE] * len(forms))
 
 
-def _poly(equation: LinearEquation, names: Sequence[str], ring: Ring) -> Poly:
-    scale = lcm(equation.rhs.denominator, *(c.denominator for c in equation.row))
-    total = ring.constant(-int(equation.rhs * scale))
-    for c, name in zip(equation.row, names, strict=True):
+def _poly(equation: Quadratic, names: Sequence[str], ring: Ring) -> Poly:
+    scale = lcm(equation.constant.denominator, *(c.denominator for c in equation.gradient))
+    total = ring.constant(int(equation.constant * scale))
+    for c, name in zip(equation.gradient, names, strict=True):
         total = total + int(c * scale) * ring.var(name)
     if not total.variables:
         raise InternalError("an equation without variables")

@@ -24,7 +24,7 @@ from qe.exact.field import NumberField
 from qe.exact.kkt_system import MAX_DEGREE, Flat, HighDegree, Point
 from qe.exact.quadratic_form import Number, Quadratic, Vector, combine, solve_linear
 from qe.options import Budget
-from qe.proof.multipliers import Face, FormRelation, LinearEquation, OptimumEvidence, OptimumStatus, derived_equations
+from qe.proof.multipliers import Face, FormRelation, OptimumEvidence, OptimumStatus, derived_equations
 
 Frame = Callable[[Flat, Sequence[Quadratic]], Flat]
 _ZERO, _ONE = Fraction(0), Fraction(1)
@@ -53,7 +53,7 @@ class _State:
     whether rational numbers near the optimum may stand for it."""
 
     faces: tuple[Face, ...]
-    derived: tuple[LinearEquation, ...]
+    derived: tuple[Quadratic, ...]
     flat: Flat
     frame: Frame
     near: bool
@@ -61,7 +61,7 @@ class _State:
     @property
     def rows(self) -> list[Vector]:
         """Of the derived equations."""
-        return [e.row for e in self.derived]
+        return [e.gradient for e in self.derived]
 
 
 def solve(system: ConvexSystem, *, budget: Budget, near: bool = False) -> OptimumEvidence:
@@ -236,7 +236,7 @@ def _face(system: ConvexSystem, state: _State, point: Point, weights: dict[int, 
     equations = derived_equations(face, system.forms, system.relations)
     known = (*state.derived, *equations)
     rows = [f for f, r in zip(system.forms, system.relations, strict=True) if r is FormRelation.EQ]
-    flat = Flat.whole(len(system.names)).cut(rows + [Quadratic.linear(e.row, -e.rhs) for e in known])
+    flat = Flat.whole(len(system.names)).cut([*rows, *known])
     if flat is None or len(flat.basis) >= len(state.flat.basis):
         raise Unable("facial reduction found no smaller affine hull")
     return replace(state, faces=(*state.faces, face), derived=known, flat=state.frame(flat, system.forms))

@@ -240,7 +240,7 @@ def _provably_unique(evidence: OptimumEvidence) -> bool:
     """Whether uniqueness follows from rational data alone, which is what the certificate claims."""
     rows = [row for row in evidence.objective.hessian if any(row)]
     for face in evidence.faces:
-        rows += [e.row for e in derived_equations(face, evidence.forms, evidence.relations)]
+        rows += [e.gradient for e in derived_equations(face, evidence.forms, evidence.relations)]
     for form, relation, m in zip(evidence.forms, evidence.relations, evidence.multipliers, strict=True):
         if relation is FormRelation.EQ:
             rows.append(form.gradient)

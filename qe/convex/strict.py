@@ -89,7 +89,7 @@ def _equations(system: ConvexSystem, evidence: OptimumEvidence) -> list[Vector]:
         f.gradient for f, r in zip(system.forms, system.relations, strict=True) if r is FormRelation.EQ
     ]
     for face in evidence.faces:
-        rows += [e.row for e in derived_equations(face, system.forms, system.relations)]
+        rows += [e.gradient for e in derived_equations(face, system.forms, system.relations)]
     return rows
 
 

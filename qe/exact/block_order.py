@@ -15,13 +15,12 @@ from dataclasses import dataclass, replace
 from qe.errors import Unable
 from qe.exact.fglm import changed_order
 from qe.exact.groebner import BRIEF, Basis, Limits, MonomialOrder, groebner_basis
+from qe.exact.ideals import LIMITS
 from qe.exact.quotient import Quotient, dimension
 from qe.exact.ring import Poly
 
 Exponents = tuple[int, ...]
 Terms = dict[Exponents, Poly]
-
-LIMITS = Limits(elements=600, terms=20_000, bits=40_000, modular=True)
 
 MOST_CONVERTED = 80
 """Complex solutions, with multiplicities, of a system whose basis is changed into another order."""

@@ -24,10 +24,10 @@ def changed_order(basis: Basis, order: MonomialOrder, variables: Sequence[int] |
     context = fmpz_mpoly_ctx.get(names, order.value)
     if not quotient.size:
         return Basis(basis.ring, chosen, order, None, [context.constant(1)], context)
-    rows = _Rows(quotient.size)
     start = fmpq_mat(quotient.size, 1, [fmpq(i == 0) for i in range(quotient.size)])
     pending: dict[Exponents, fmpq_mat] = {(0,) * width: start}
     kept: list[Exponents] = []
+    rows: list[list[fmpq]] = []
     elements = []
     leads: list[Exponents] = []
     while pending:
@@ -35,38 +35,16 @@ def changed_order(basis: Basis, order: MonomialOrder, variables: Sequence[int] |
         vector = pending.pop(monomial)
         if any(all(a <= b for a, b in zip(lead, monomial, strict=True)) for lead in leads):
             continue
-        relation = rows.added(vector.entries())
-        if relation is None:
+        relation, rank = fmpq_mat([*rows, vector.entries()]).transpose().rref()
+        if rank > len(rows):
+            rows.append(vector.entries())
             kept.append(monomial)
             for k, step in enumerate(steps):
                 larger = (*monomial[:k], monomial[k] + 1, *monomial[k + 1 :])
                 pending.setdefault(larger, step * vector)
             continue
         leads.append(monomial)
-        terms = {m: -c for m, c in zip(kept, relation, strict=True) if c} | {monomial: fmpq(1)}
+        terms = {m: -c for k, m in enumerate(kept) if (c := relation[k, rank])} | {monomial: fmpq(1)}
         scale = lcm(*(int(c.q) for c in terms.values()))
         elements.append(context.from_dict({(*m, 0): int((c * scale).p) for m, c in terms.items()}))
     return Basis(basis.ring, chosen, order, None, elements, context)
-
-
-class _Rows:
-    """Independent vectors in echelon form, each with what combination of the given ones it is."""
-
-    def __init__(self, size: int) -> None:
-        self.size = size
-        self.rows: list[tuple[int, list[fmpq], list[fmpq]]] = []
-
-    def added(self, vector: Sequence[fmpq]) -> list[fmpq] | None:
-        """None where the vector is independent of the earlier ones and kept; else its coefficients by them."""
-        rest, used = list(vector), [fmpq(0)] * len(self.rows)
-        for pivot, row, combination in self.rows:
-            if rest[pivot]:
-                factor = rest[pivot]
-                rest = [a - factor * b if b else a for a, b in zip(rest, row, strict=True)]
-                used = [a + factor * b for a, b in zip(used, [*combination, *[fmpq(0)] * len(used)], strict=False)]
-        place = next((i for i, c in enumerate(rest) if c), None)
-        if place is None:
-            return used
-        head = rest[place]
-        self.rows.append((place, [c / head for c in rest], [*(-c / head for c in used), 1 / head]))
-        return None

@@ -62,10 +62,11 @@ class Basis:
     """The reduced Groebner basis of an ideal of Q[names], with integer primitive elements.
 
     ``polys``: ascending by leading monomial; () for the zero ideal, (1,) for the unit ideal.
-    ``variables``: the ring's variables in the basis' own order, largest first.
+    ``variables``: the ring's variables in the basis' own order, largest first; ``weights``: theirs, by which
+    degrees are counted in a graded order.
     """
 
-    __slots__ = ("_context", "_internal", "_weights", "order", "polys", "ring", "variables")
+    __slots__ = ("_context", "_internal", "order", "polys", "ring", "variables", "weights")
 
     def __init__(
         self,
@@ -77,14 +78,15 @@ class Basis:
         context: fmpz_mpoly_ctx,
     ) -> None:
         self.ring, self.variables, self.order = ring, variables, order
-        self._weights, self._internal, self._context = weights, tuple(internal), context
+        self.weights = weights or (1,) * len(variables)
+        self._internal, self._context = tuple(internal), context
         self.polys = tuple(self._outside(g).normal()[1] for g in internal)
 
     @property
     def leads(self) -> tuple[tuple[int, ...], ...]:
         """The exponents of the leading monomials, each in the order of ``variables``, as ``polys`` stand."""
         return tuple(
-            tuple(int(k) // w for k, w in zip(g.monomial(0), self._scales, strict=False)) for g in self._internal
+            tuple(int(k) // w for k, w in zip(g.monomial(0), self.weights, strict=False)) for g in self._internal
         )
 
     def tails(self) -> list[dict[tuple[int, ...], fmpq]]:
@@ -93,22 +95,13 @@ class Basis:
         for g in self._internal:
             terms = iter(g.terms())
             lead = next(terms)[1]
-            moved = ((tuple(int(k) // w for k, w in zip(e, self._scales, strict=False)), c) for e, c in terms)
+            moved = ((tuple(int(k) // w for k, w in zip(e, self.weights, strict=False)), c) for e, c in terms)
             tails.append({e: fmpq(-c, lead) for e, c in moved})
         return tails
 
     def rank(self, exponents: Sequence[int]) -> tuple[int, ...]:
         """A key by which monomials are sorted, exponents in the order of ``variables``: the larger the higher."""
-        return self.order.key([e * w for e, w in zip(exponents, self._scales, strict=True)])
-
-    @property
-    def weights(self) -> tuple[int, ...]:
-        """Of the variables, by which degrees are counted in a graded order."""
-        return self._scales
-
-    @property
-    def _scales(self) -> tuple[int, ...]:
-        return self._weights or (1,) * len(self.variables)
+        return self.order.key([e * w for e, w in zip(exponents, self.weights, strict=True)])
 
     @property
     def is_unit(self) -> bool:
@@ -128,7 +121,7 @@ class Basis:
         if self.is_unit:
             return 1, poly.ring.constant(0)
         tag = self._context.gens()[len(self.variables)]
-        inside = _inside(poly, self.variables, self._weights, self._context)
+        inside = _inside(poly, self.variables, self.weights, self._context)
         reduced = (inside + tag).reduction_primitive_part(fmpz_mpoly_vec(self._internal, self._context))
         position = len(self.variables)
         scale = 0
@@ -150,7 +143,7 @@ class Basis:
 
     def _outside(self, g: fmpz_mpoly) -> Poly:
         size = self.ring.size
-        weights = self._scales
+        weights = self.weights
         terms = {}
         for exponents, coefficient in g.terms():
             moved = [0] * size
@@ -183,7 +176,7 @@ def groebner_basis(
     chosen = tuple(used if variables is None else variables)
     if not set(used) <= set(chosen):
         raise InternalError("a variable of the ideal is missing from the variable order")
-    scales = _weights(heavy, len(chosen)) if heavy else tuple(weights) or None
+    scales = _weights(heavy, len(chosen)) if heavy else tuple(weights) or (1,) * len(chosen)
     names = (*(f"v{k}" for k in range(len(chosen))), "tag")
     context = fmpz_mpoly_ctx.get(names, order.value)
     found = _found([_inside(p, chosen, scales, context) for p in given], context, limits, order)
@@ -233,7 +226,7 @@ def _is_block(basis: Basis, heavy: int) -> bool:
 
     Then initial forms agree with those of "block weight first, then the rest", an elimination order.
     """
-    weights = (basis._weights or ())[:heavy]
+    weights = basis.weights[:heavy]
     for g in basis._internal:
         tops: dict[tuple[int, ...], int] = {}
         for exponents in g.monoms():
@@ -245,12 +238,9 @@ def _is_block(basis: Basis, heavy: int) -> bool:
     return bool(weights)
 
 
-def _inside(
-    poly: Poly, variables: Sequence[int], weights: tuple[int, ...] | None, context: fmpz_mpoly_ctx
-) -> fmpz_mpoly:
-    factors = weights or (1,) * len(variables)
+def _inside(poly: Poly, variables: Sequence[int], weights: tuple[int, ...], context: fmpz_mpoly_ctx) -> fmpz_mpoly:
     return context.from_dict(
-        {(*(e[i] * w for i, w in zip(variables, factors, strict=True)), 0): c for e, c in poly.terms()}
+        {(*(e[i] * w for i, w in zip(variables, weights, strict=True)), 0): c for e, c in poly.terms()}
     )
 
 

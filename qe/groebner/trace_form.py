@@ -8,10 +8,12 @@ has at every point the signature that counts the real solutions there (Weispfenn
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
-from functools import cached_property
+from functools import cached_property, reduce
 from math import lcm, prod
+from operator import or_
 
 from qe.errors import Unable
 from qe.exact.block_order import Exponents
@@ -28,9 +30,7 @@ MOST_EXPANDED = 16
 """Complex solutions of which determinants are expanded; as many as the checker of the method takes."""
 
 Matrix = tuple[tuple[Poly, ...], ...]
-
-
-Powers = dict[Poly, int]
+Powers = Counter[Poly]
 """A denominator, by irreducible factors: products would lose them where the equations of the segment reduce them."""
 
 
@@ -62,7 +62,7 @@ class ParametricQuotient:
     # --- normal forms ------------------------------------------------------------------------
     def _unit(self, k: int) -> Vector:
         one, zero = self.ring.constant(1), self.ring.constant(0)
-        return Vector(tuple(one if i == k else zero for i in range(self.size)), {})
+        return Vector(tuple(one if i == k else zero for i in range(self.size)), Powers())
 
     def normal_form(self, monomial: Exponents) -> Vector:
         """The coordinates of a monomial."""
@@ -91,22 +91,22 @@ class ParametricQuotient:
         )
 
     def _with_unit(self, factors: Iterable[tuple[Poly, int]], unit: int) -> Powers:
-        found = dict(factors)
+        found = Powers(dict(factors))
         if unit > 1:
             found[self.ring.constant(unit)] = 1
         return found
 
     def _combined(self, parts: Sequence[tuple[Poly, Vector]], bottom: Powers) -> Vector:
         """The sum of multiples of vectors, over ``bottom``."""
-        common = _least_common([v.bottom for _, v in parts])
+        common = reduce(or_, (v.bottom for _, v in parts), Powers())
         tops = [self.ring.constant(0)] * self.size
         for c, v in parts:
             self.budget.check("trace forms")
-            factor = c * self._expanded(_quotient(common, v.bottom))
+            factor = c * self._expanded(common - v.bottom)
             for k, top in enumerate(v.tops):
                 if top:
                     tops[k] = tops[k] + factor * top
-        return self._tidy(tops, _multiplied(common, bottom))
+        return self._tidy(tops, common + bottom)
 
     def _expanded(self, powers: Powers) -> Poly:
         return prod((f**e for f, e in powers.items()), start=self.ring.constant(1))
@@ -116,8 +116,8 @@ class ParametricQuotient:
         if (base := self.segment.base) is not None:
             reduced = [base.reduce(p) for p in tops]
             scale = lcm(*(s for s, _ in reduced))
-            tops, bottom = [p * (scale // s) for s, p in reduced], _multiplied(bottom, self._with_unit((), scale))
-        kept: Powers = {}
+            tops, bottom = [p * (scale // s) for s, p in reduced], bottom + self._with_unit((), scale)
+        kept = Powers()
         for f, e in bottom.items():
             while e and all(not p or _divides(f, p) for p in tops):
                 self.budget.check("trace forms")
@@ -131,7 +131,7 @@ class ParametricQuotient:
     def of(self, poly: Poly) -> Vector:
         """The coordinates of a polynomial in variables and parameters."""
         parts = [(c, self.normal_form(e)) for e, c in self.block.terms(poly).items()]
-        return self._combined(parts, {})
+        return self._combined(parts, Powers())
 
     def times(self, a: Vector, b: Vector) -> Vector:
         """The product of two elements."""
@@ -140,7 +140,7 @@ class ParametricQuotient:
             for j, d in enumerate(b.tops):
                 if c and d:
                     parts.append((c * d, self.normal_form(_product(self.monomials[i], self.monomials[j]))))
-        return self._combined(parts, _multiplied(a.bottom, b.bottom))
+        return self._combined(parts, a.bottom + b.bottom)
 
     # --- traces ------------------------------------------------------------------------------
     @cached_property
@@ -149,11 +149,11 @@ class ParametricQuotient:
         found = []
         for m in self.monomials:
             diagonal = [self.normal_form(_product(m, b)) for b in self.monomials]
-            common = _least_common([v.bottom for v in diagonal])
-            parts = (v.tops[k] * self._expanded(_quotient(common, v.bottom)) for k, v in enumerate(diagonal))
+            common = reduce(or_, (v.bottom for v in diagonal), Powers())
+            parts = (v.tops[k] * self._expanded(common - v.bottom) for k, v in enumerate(diagonal))
             found.append((sum(parts, start=self.ring.constant(0)), common))
-        common = _least_common([bottom for _, bottom in found])
-        return self._tidy([top * self._expanded(_quotient(common, bottom)) for top, bottom in found], common)
+        common = reduce(or_, (bottom for _, bottom in found), Powers())
+        return self._tidy([top * self._expanded(common - bottom) for top, bottom in found], common)
 
     def form(self, factor: Poly | None = None) -> Matrix:
         """Tr(h*b_i*b_j) for h = factor (1 by default), every b_i times a polynomial that vanishes nowhere on the
@@ -168,12 +168,12 @@ class ParametricQuotient:
                 v = self.normal_form(_product(self.monomials[i], self.monomials[j]))
                 v = v if h is None else self.times(h, v)
                 total = sum((c * t for c, t in zip(v.tops, self.traces.tops, strict=True)), start=self.ring.constant(0))
-                tidy = self._tidy([total], _multiplied(v.bottom, self.traces.bottom))
+                tidy = self._tidy([total], v.bottom + self.traces.bottom)
                 entries[i, j] = tidy.tops[0], tidy.bottom
         scales = row_scales({place: bottom for place, (top, bottom) in entries.items() if top}, size)
         rows = {}
         for (i, j), (top, bottom) in entries.items():
-            missing = _quotient(_multiplied(scales[i], scales[j]), bottom) if top else {}
+            missing = scales[i] + scales[j] - bottom if top else Powers()
             rows[i, j] = self._reduced(top * self._expanded(missing))
         return tuple(tuple(rows[min(i, j), max(i, j)] for j in range(size)) for i in range(size))
 
@@ -262,7 +262,7 @@ def _over_square(poly: Poly, factor: Poly) -> Poly | None:
 
 def row_scales(bottoms: Mapping[tuple[int, int], Powers], size: int) -> list[Powers]:
     """For every row a polynomial such that scales[i]*scales[j] is a multiple of the denominator at (i, j)."""
-    scales: list[Powers] = [{} for _ in range(size)]
+    scales = [Powers() for _ in range(size)]
     for factor in dict.fromkeys(f for powers in bottoms.values() for f in powers):
         needed = {place: powers.get(factor, 0) for place, powers in bottoms.items()}
         own = [-(-needed.get((i, i), 0) // 2) for i in range(size)]
@@ -273,23 +273,6 @@ def row_scales(bottoms: Mapping[tuple[int, int], Powers], size: int) -> list[Pow
             if power:
                 scales[i][factor] = power
     return scales
-
-
-def _least_common(bottoms: Iterable[Powers]) -> Powers:
-    found: Powers = {}
-    for powers in bottoms:
-        for f, e in powers.items():
-            found[f] = max(e, found.get(f, 0))
-    return found
-
-
-def _multiplied(a: Powers, b: Powers) -> Powers:
-    return {f: a.get(f, 0) + b.get(f, 0) for f in dict.fromkeys((*a, *b))}
-
-
-def _quotient(a: Powers, b: Powers) -> Powers:
-    """a/b, where b divides a."""
-    return {f: e - b.get(f, 0) for f, e in a.items() if e > b.get(f, 0)}
 
 
 def _divides(factor: Poly, poly: Poly) -> bool:

@@ -65,26 +65,16 @@ class FaceLink:
     derived: tuple[Number, ...]
 
 
-@dataclass(frozen=True, slots=True)
-class LinearEquation:
-    """row . x = rhs over Q."""
-
-    row: tuple[Fraction, ...]
-    rhs: Fraction
-
-
-def derived_equations(
-    face: Face, forms: Sequence[Quadratic], relations: Sequence[FormRelation]
-) -> list[LinearEquation]:
-    """The linear equations that a face derives, in their fixed order."""
-    found: list[LinearEquation] = []
+def derived_equations(face: Face, forms: Sequence[Quadratic], relations: Sequence[FormRelation]) -> list[Quadratic]:
+    """The linear polynomials that vanish by what a face derives, in their fixed order."""
+    found: list[Quadratic] = []
     for weight, form, relation in zip(face.weights, forms, relations, strict=True):
         if relation is FormRelation.EQ or weight <= 0:
             continue
         for row in form.hessian:
-            found.append(LinearEquation(row, dot(row, face.point)))
+            found.append(Quadratic.linear(row, -dot(row, face.point)))
         slope = tuple(Fraction(s) for s in form.slope(face.point))
-        found.append(LinearEquation(slope, dot(slope, face.point) - Fraction(form.value(face.point))))
+        found.append(Quadratic.linear(slope, Fraction(form.value(face.point)) - dot(slope, face.point)))
     return found
 
 

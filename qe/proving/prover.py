@@ -40,6 +40,8 @@ from qe.proving.simplified import Simplified
 from qe.proving.substitution_steps import steps
 
 T = TypeVar("T")
+Shown = tuple[str, Json]
+"""The rule by whose checker a step is accepted, and the evidence."""
 TABLE_WORK, TABLE_SHARE = 3_000, 0.25
 """Units of work for a decomposition that proves a single step, and the share of the time left that it may take."""
 
@@ -65,7 +67,10 @@ def proved(derivation: Derivation, answer: Formula, options: Options, budget: Bu
     Raises ``BudgetExceeded``, and ``InternalError`` where accepted steps do not fit together, which would be a bug.
     """
     derivation = replace(derivation, steps=tuple(completed(step, budget) for step in derivation.steps))
-    prover = Prover(_ring(derivation, answer), options, budget)
+    formulas = (derivation.start, *(step.before for step in derivation.steps), answer)
+    ring = next((f.ring for f in formulas if f.ring is not None), Ring.of(()))
+    names = dict.fromkeys((*ring.names, *(n for step in derivation.steps for n in names_within(step))))
+    prover = Prover(Ring.of(names), options, budget)
     start, goal = moved(derivation.start, prover.ring), moved(answer, prover.ring)
     prover.whole(derivation, start, goal)
     unchecked = tuple(dict.fromkeys(prover.unchecked))
@@ -78,13 +83,6 @@ def proved(derivation: Derivation, answer: Formula, options: Options, budget: Bu
     except CertificateRejected as error:
         raise InternalError(f"the certificate of an answer was rejected at {error.step}: {error.reason}") from error
     return Proof(certificate, checked=True)
-
-
-def _ring(derivation: Derivation, answer: Formula) -> Ring:
-    """The ring of the derivation, with the names that the evidence of its steps brings in."""
-    formulas = (derivation.start, *(step.before for step in derivation.steps), answer)
-    ring = next((f.ring for f in formulas if f.ring is not None), Ring.of(()))
-    return Ring.of(dict.fromkeys((*ring.names, *(n for step in derivation.steps for n in names_within(step)))))
 
 
 @dataclass(slots=True)
@@ -195,43 +193,39 @@ class Prover:
             self.steps.append(written(found[0], (), current, goal, (), found[1]))
 
     # --- evidence ------------------------------------------------------------------------------
-    def evidence(self, step: Step, context: Context) -> tuple[str, Json] | None:
+    def evidence(self, step: Step, context: Context) -> Shown | None:
         """The rule by whose checker the step is accepted, and the evidence."""
         return self.own(step, context) or self._tabulated(step)
 
-    def own(self, step: Step, context: Context) -> tuple[str, Json] | None:
+    def own(self, step: Step, context: Context) -> Shown | None:
         """As ``evidence``, without decompositions that nobody has made yet."""
         trace = step.evidence.get("trace")
-        if isinstance(trace, Eliminated):
-            inner = self._substituted(step, trace)
-            if inner is not None:
-                return "virtual substitution", inner
+        if isinstance(trace, Eliminated) and (shown := self._substituted(step, trace)) is not None:
+            return shown
         if step.rule == CRITICAL:
-            found = self._critical(step)
-            return None if found is None else (step.rule, found)
+            return self._critical(step)
         if isinstance(trace, RunLog):
-            inner = self._replayed(step, trace)
-            return None if inner is None else (step.rule, inner)
+            return self._replayed(step, trace)
         given = step.evidence.get("proof")
         if isinstance(given, Mapping) and isinstance(made := given.get("certificate"), Certificate):
             return self._by_method(step, context, made)
         if step.rule == SQUARES:
             return self._positive(step, given, context)
-        evidence = self._plain(given) if isinstance(given, Mapping) else {}
+        evidence = {name: self._json(part) for name, part in given.items()} if isinstance(given, Mapping) else {}
         if step.rule == SEARCH:
             return self._searched(step, evidence)
         if step.rule in ELABORATORS:
             elaborated = self._elaborated(step, context, evidence)
             if elaborated is not None or step.rule not in RULES:
                 return elaborated
-        if step.rule in SIMPLIFYING and _may_be_quantifiers(step):
-            moved_only = self._named(QUANTIFIERS, step, (), {})
-            if moved_only is not None:
+        if step.rule in SIMPLIFYING and not step.before.is_quantifier_free:
+            before, after = (len({*polynomials(f)}) for f in (step.before, step.after))
+            if before == after and (moved_only := self._named(QUANTIFIERS, step, (), {})) is not None:
                 return moved_only
         rule = PRIMITIVE_OF.get(step.rule, THEOREM if "theorem" in evidence else step.rule)
         return self._named(rule, step, context, evidence)
 
-    def _by_method(self, step: Step, context: Context, made: Certificate) -> tuple[str, Json] | None:
+    def _by_method(self, step: Step, context: Context, made: Certificate) -> Shown | None:
         """The one step of a certificate that a method made of this very step."""
         rule, evidence = str(made.single_step["rule"]), made.single_step["evidence"]
         assert isinstance(evidence, dict)
@@ -239,15 +233,11 @@ class Prover:
             rule = step.rule  # which says more
         return self._named(rule, step, context, evidence)
 
-    def _named(self, rule: str, step: Step, context: Context, evidence: dict[str, Json]) -> tuple[str, Json] | None:
-        accepted = self._tried(rule, step, context, evidence)
-        return None if accepted is None else (rule, accepted)
-
-    def _tried(self, rule: str, step: Step, context: Context, evidence: dict[str, Json]) -> Json | None:
+    def _named(self, rule: str, step: Step, context: Context, evidence: dict[str, Json]) -> Shown | None:
+        """A rule, and the evidence for it with its derivations and lemmas, accepted."""
         return self._found(lambda: self._completed(rule, step, context, evidence))
 
-    def _completed(self, rule: str, step: Step, context: Context, evidence: dict[str, Json]) -> Json | None:
-        """The evidence with its derivations and lemmas, accepted."""
+    def _completed(self, rule: str, step: Step, context: Context, evidence: dict[str, Json]) -> Shown | None:
         if (checker := RULES.get(rule)) is None:
             return None
         check_names(self._claim(rule, step, evidence), context)
@@ -265,9 +255,9 @@ class Prover:
                 return None
             evidence = {**evidence, "theory": theory}
         self._check(self._claim(rule, step, evidence), context)
-        return evidence
+        return rule, evidence
 
-    def _elaborated(self, step: Step, context: Context, evidence: Json) -> tuple[str, Json] | None:
+    def _elaborated(self, step: Step, context: Context, evidence: Json) -> Shown | None:
         """Steps of the kernel that make a step of another rule."""
         try:
             claim, elaborator = self._claim(step.rule, step, evidence), ELABORATORS[step.rule]
@@ -291,7 +281,7 @@ class Prover:
             self.budget.check("prove")
             return None
 
-    def _positive(self, step: Step, given: object, context: Context) -> tuple[str, Json] | None:
+    def _positive(self, step: Step, given: object, context: Context) -> Shown | None:
         """Signs that follow from identities, which the rule has found."""
         assert isinstance(given, Mapping)
         lemmas = identities([*given["identities"]], self.ring)
@@ -299,21 +289,21 @@ class Prover:
         theory = self._found(lambda: with_cases(lemmas, block_goals(claim, context), self.ring, self.limits))
         return None if theory is None else (SIGNS, {"theory": theory})
 
-    def _substituted(self, step: Step, trace: Eliminated) -> Json | None:
+    def _substituted(self, step: Step, trace: Eliminated) -> Shown | None:
         """The steps of virtual substitution, all of them accepted."""
         claim = self._claim("virtual substitution", step, {})
         before, after = existential(claim)
 
-        def evidence() -> Json | None:
+        def evidence() -> Shown | None:
             if not isinstance(before, Exists):
                 return None
             made: Json = {"steps": steps(before, trace, after, self.ring, self._simplified, self.limits)}
             self._check(self._claim(claim.rule, step, made), ())
-            return made
+            return claim.rule, made
 
         return self._found(evidence)
 
-    def _critical(self, step: Step) -> Json | None:
+    def _critical(self, step: Step) -> Shown | None:
         """The evidence for a step by critical values, accepted."""
         from qe.proving.critical import critical_evidence
 
@@ -321,9 +311,9 @@ class Prover:
         if not isinstance(order, tuple):
             return None
         evidence = self._found(lambda: critical_evidence(claim, order, self.options, self.budget))
-        return None if evidence is None else self._tried(step.rule, step, (), evidence)
+        return None if evidence is None else self._named(step.rule, step, (), evidence)
 
-    def _replayed(self, step: Step, log: RunLog) -> Json | None:
+    def _replayed(self, step: Step, log: RunLog) -> Shown | None:
         """The steps of which one step is made, all of them accepted."""
         inner = Prover(self.ring, self.options, self.budget, self.tables, (), self.accepted)
         current = step.before
@@ -333,27 +323,26 @@ class Prover:
             current = inner.taken(Step(part.rule, before, after, context, part.evidence, places), current)
         if current != step.after:
             inner.joined(current, step.after)
-        return None if inner.unchecked else self._tried(step.rule, step, (), {"steps": inner.steps})
+        return None if inner.unchecked else self._named(step.rule, step, (), {"steps": inner.steps})
 
-    def _searched(self, step: Step, evidence: dict[str, Json]) -> tuple[str, Json] | None:
+    def _searched(self, step: Step, evidence: dict[str, Json]) -> Shown | None:
         """The evidence for a refutation by a Boolean search, with the clauses that lead to a contradiction."""
         from qe.proving.search import with_clauses
 
-        def completed() -> Json:
+        def completed() -> Shown:
             claim = self._claim(SIGNS, step, with_clauses(self._claim(step.rule, step, evidence), self.limits))
             found = proved_inside(lambda limits: _checked(RULES[SIGNS], claim, (), limits), self.limits, self.nested)
             self._check(replace(claim, evidence=Entry(found, "evidence")), ())
-            return found
+            return SIGNS, found
 
-        found = self._found(completed)
-        return None if found is None else (SIGNS, found)
+        return self._found(completed)
 
     def _simplified(self, before: Formula, after: Formula) -> Json:
         """A step of simplification inside another one; ``CertificateRejected`` where it is not proved."""
-        found = self._tried(SIGNS, Step("simplification", before, after), (), {})
-        if found is None:
+        shown = self._named(SIGNS, Step("simplification", before, after), (), {})
+        if shown is None:
             raise CertificateRejected(SIGNS, "no lemmas found")
-        return written(SIGNS, (), before, after, (), found)
+        return written(SIGNS, (), before, after, (), shown[1])
 
     def _check(self, claim: Claim, context: Context) -> None:
         """Returns where the step is accepted; raises as its checker does."""
@@ -363,7 +352,7 @@ class Prover:
     def _claim(self, rule: str, step: Step, evidence: Json) -> Claim:
         return Claim(rule, step.before, step.after, self.ring, Entry(evidence, "evidence"), "step")
 
-    def _tabulated(self, step: Step) -> tuple[str, Json] | None:
+    def _tabulated(self, step: Step) -> Shown | None:
         """A decomposition that proves the step."""
         known = set(step.before.free)
         if not self.tables or not step.after.is_quantifier_free or not known >= set(step.after.free):
@@ -371,9 +360,6 @@ class Prover:
         budget = self.budget.share(TABLE_SHARE).part(TABLE_WORK)
         certificate = self._found(lambda: certificate_for(step.before, step.after, self.options, budget))
         return None if certificate is None else self._by_method(step, (), certificate)
-
-    def _plain(self, value: Mapping[str, object]) -> dict[str, Json]:
-        return {name: self._json(part) for name, part in value.items()}
 
     def _json(self, value: object) -> Json:
         """Evidence from the log as JSON data over the ring of the derivation."""
@@ -388,7 +374,7 @@ class Prover:
             case list() | tuple():
                 return [self._json(v) for v in value]
             case Mapping():
-                return self._plain(value)
+                return {name: self._json(part) for name, part in value.items()}
             case Nested():
                 return value  # type: ignore[return-value]  # becomes a list of steps when they are proved
             case _ if isinstance(value, Formula):
@@ -402,12 +388,6 @@ def _checked(checker: Check, claim: Claim, context: Context, limits: Limits) -> 
     """The evidence of a claim that its checker accepts."""
     checker(claim, context, limits)
     return claim.evidence.value
-
-
-def _may_be_quantifiers(step: Step) -> bool:
-    """Whether only quantifiers may have moved: as many polynomials are compared after the step as before it."""
-    before, after = (len({*polynomials(f)}) for f in (step.before, step.after))
-    return before == after and not step.before.is_quantifier_free
 
 
 def _part_dropped(place: Place, step: Step, current: Formula) -> tuple[Place, Step]:

@@ -5,14 +5,17 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
 from fractions import Fraction
+from functools import partial
+from typing import TypeVar
 
 from qe.convex.optimum import OptimumStatus, decide, exact, maximize, minimize
 from qe.convex.system import NotConvex, read_system
 from qe.decomposition.decompose import decompose
 from qe.decomposition.interval import Interval, Number
-from qe.decomposition.sampled_cells import leaves
+from qe.decomposition.sampled_cells import any_true, leaves
 from qe.errors import BudgetExceeded, InputError, Unable
 from qe.exact.algebraic import RealAlgebraic
+from qe.exact.number import simplest
 from qe.exact.ring import Ring
 from qe.formula.build import convert, exists
 from qe.formula.evaluate import substituted
@@ -26,6 +29,7 @@ from qe.regions.region import NONE, Region, checked_order, is_true
 TABLE_VARIABLES = 2
 """Up to this many variables the decomposition is used for questions that optimisation does not answer."""
 
+T = TypeVar("T")
 Eliminate = Callable[[Formula, Budget], Formula]
 
 
@@ -104,12 +108,9 @@ class ConvexRegion(Region):
         return self._asked(self._nowhere)
 
     def _nowhere(self) -> bool:
-        try:
-            return self._somewhere(self._shadow.conditions) is None
-        except Unable as error:
-            if not self._has_small_table(error):
-                raise
-            return super().is_empty
+        return self._or_by_table(
+            lambda: self._somewhere(self._shadow.conditions) is None, lambda: not any_true(self.table.root)
+        )
 
     def sample_points(self, *, timeout: float | None = None) -> list[dict[str, Number]]:
         """Exact points: in up to two variables a rational one in every true cell of full dimension (in every true cell
@@ -129,25 +130,22 @@ class ConvexRegion(Region):
         small = len(self.order) <= TABLE_VARIABLES
         if small and self._formula is not None:  # in more variables the answer could depend on what was read before
             return super()._holds(values)
-        given = dict(zip(self.order, values, strict=True))
-        irrational = [name for name, value in given.items() if _rational(value) is None]
-        try:
-            if not irrational:
-                return self._somewhere(self._under(given)) is not None
-            if len(irrational) == 1:
-                value = given.pop(irrational[0])
-                allowed = self._range(irrational[0], self._under(given))
-                return allowed is not None and value in allowed
-        except Unable as error:
-            if not self._has_small_table(error):
-                raise
+        given = dict(zip(self.order, map(simplest, values), strict=True))
+        irrational = [name for name, value in given.items() if isinstance(value, RealAlgebraic)]
+        by_table = partial(super()._holds, values)
+        if not irrational:
+            return self._or_by_table(lambda: self._somewhere(self._under(given)) is not None, by_table)
+        if len(irrational) == 1:
+            value = given.pop(irrational[0])
+            allowed = partial(self._range, irrational[0], self._under(given))
+            return self._or_by_table(lambda: (within := allowed()) is not None and value in within, by_table)
         if not small:
             raise Unable("membership: at most one irrational coordinate expected; qe.region(region.formula) takes more")
-        return super()._holds(values)
+        return by_table()
 
     def _under(self, given: Mapping[str, Number]) -> Formula:
         """The conditions with rational values substituted."""
-        return substituted(self._shadow.conditions, {n: q for n, v in given.items() if (q := _rational(v)) is not None})
+        return substituted(self._shadow.conditions, {n: v for n, v in given.items() if isinstance(v, Fraction)})
 
     def _somewhere(self, conditions: Formula) -> dict[str, Number] | None:
         """A point that satisfies the conditions, None if there is none."""
@@ -157,33 +155,30 @@ class ConvexRegion(Region):
         return None if values is None else dict(values)
 
     def _bounded(self, variable: str) -> Interval:
-        try:
-            interval = self._range(variable, self._shadow.conditions)
-        except Unable as error:
-            if not self._has_small_table(error):
-                raise
-            return super()._bounded(variable)
+        optimised = partial(self._range, variable, self._shadow.conditions)
+        interval = self._or_by_table(optimised, partial(super()._bounded, variable))
         if interval is None:
             raise InputError("an empty region has no bounds")
         return interval
 
     def _fibre(self, values: list[Number]) -> list[Interval]:
-        if any(_rational(value) is None for value in values):
+        given = dict(zip(self.order, map(simplest, values), strict=False))
+        if any(isinstance(value, RealAlgebraic) for value in given.values()):
             if len(self.order) > TABLE_VARIABLES:
                 raise Unable("fibre: rational values expected; take them inside the interval")
             return super()._fibre(values)
-        given = dict(zip(self.order, values, strict=False))
-        try:
-            interval = self._range(self.order[len(values)], self._under(given))
-        except Unable as error:
-            if not self._has_small_table(error):
-                raise
-            return super()._fibre(values)
-        return [] if interval is None else [interval]
+        allowed = partial(self._range, self.order[len(values)], self._under(given))
+        by_table = partial(super()._fibre, values)
+        return self._or_by_table(lambda: [one] if (one := allowed()) is not None else [], by_table)
 
-    def _has_small_table(self, error: Unable) -> bool:
-        """Whether the decomposition may take over from optimisation that could not prove its answer."""
-        return len(self.order) <= TABLE_VARIABLES and not isinstance(error, BudgetExceeded)
+    def _or_by_table(self, work: Callable[[], T], by_table: Callable[[], T]) -> T:
+        """The answer by optimisation; where that could not prove one, and variables are few, the decomposition's."""
+        try:
+            return work()
+        except Unable as error:
+            if len(self.order) > TABLE_VARIABLES or isinstance(error, BudgetExceeded):
+                raise
+            return by_table()
 
     def _range(self, variable: str, conditions: Formula) -> Interval | None:
         """The interval of a variable under convex conditions, None if they contradict each other."""
@@ -205,9 +200,3 @@ class ConvexRegion(Region):
     def __repr__(self) -> str:
         hidden = f"exists {', '.join(self._shadow.hidden)}. " if self._shadow.hidden else ""
         return f"Region({', '.join(self.order)}: {hidden}{self._shadow.conditions})"
-
-
-def _rational(value: Number) -> Fraction | None:
-    if isinstance(value, RealAlgebraic):
-        return value.as_fraction() if value.is_rational else None
-    return value

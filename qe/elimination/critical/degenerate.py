@@ -14,7 +14,7 @@ from qe.formula.build import atom, conj, convert, exists
 from qe.formula.syntax import FALSE, ForAll, Formula, Relation
 from qe.options import Budget
 from qe.proof.step import Nested, Step
-from qe.rules.linear import Pivot, substitute
+from qe.rules.linear import put_in
 
 
 @dataclass(frozen=True, slots=True)
@@ -47,9 +47,7 @@ def thin_universal(formula: ForAll, negated: Formula, parameters: Sequence[str],
     except NotConvex:
         return None
     i = equation.variables[0]
-    constant, lead = equation.coefficients(i)
-    pivot = Pivot(0, i, lead, constant, 1 if lead.constant_value() > 0 else -1, False)
-    rest = substitute(convert(formula, equation.ring), pivot)
+    rest = put_in(convert(formula, equation.ring), i, equation)
     if rest is None:
         return None
     ring = formula.ring or equation.ring
