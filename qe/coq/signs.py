@@ -4,15 +4,16 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
+from functools import reduce
 
 from qe.errors import Unable
 from qe.exact.ring import Poly
 from qe.formula.build import exists
 from qe.formula.syntax import And, Atom, Constant, Exists, ForAll, Formula, Or, Relation
 from qe.kernel.negation import negation
+from qe.kernel.signs import ANY, NEGATIVE, POSITIVE, PRODUCT, SQUARE, ZERO, sign_bit
 from qe.truth import Truth, conjunction, disjunction
 
-NEGATIVE, ZERO, POSITIVE, ANY = 1, 2, 4, 7
 MOST_NODES = 2_000
 Identity = tuple[tuple[int, tuple[tuple[int, int], ...]], ...]
 """Coefficients, each with numbers of polynomials and their exponents: the sum is 0."""
@@ -176,15 +177,6 @@ def _literals(parts: Iterable[Formula]) -> Iterator[Formula]:
             yield f
 
 
-def _product(a: int, b: int) -> int:
-    found = (a | b) & ZERO
-    if (a & POSITIVE and b & POSITIVE) or (a & NEGATIVE and b & NEGATIVE):
-        found |= POSITIVE
-    if (a & POSITIVE and b & NEGATIVE) or (a & NEGATIVE and b & POSITIVE):
-        found |= NEGATIVE
-    return found
-
-
 def _sum(a: int, b: int) -> int:
     found = (a | b) & (NEGATIVE | POSITIVE)
     if (a & b & ZERO) or (a & NEGATIVE and b & POSITIVE) or (a & POSITIVE and b & NEGATIVE):
@@ -193,8 +185,4 @@ def _sum(a: int, b: int) -> int:
 
 
 def _times(c: int, factors: Iterable[tuple[int, int]]) -> int:
-    found = POSITIVE if c > 0 else NEGATIVE
-    for signs, exponent in factors:
-        even = (signs & ZERO) | (POSITIVE if signs & (NEGATIVE | POSITIVE) else 0)
-        found = _product(found, signs if exponent % 2 else even)
-    return found
+    return reduce(lambda a, f: PRODUCT[a][f[0] if f[1] % 2 else SQUARE[f[0]]], factors, sign_bit(c))

@@ -13,6 +13,7 @@ from fractions import Fraction
 from math import lcm
 
 from qe.errors import CertificateRejected
+from qe.exact.ring import Ring
 from qe.formula.build import atom, conj, disj, exists
 from qe.formula.normal import nnf
 from qe.formula.syntax import TRUE, Atom, Exists, Formula, Relation
@@ -109,11 +110,11 @@ def exchanged(made: Made, after: Formula) -> None:
 
 
 def _at(quotient: Quotient, terms: Mapping[int, Quotient]) -> Quotient:
-    """A quotient whose bottom is a number, at such terms."""
-    (top, bottom), ((i, (_, lead)),) = quotient, terms.items()
-    degree = top.degree(i)
-    even = degree + (degree % 2 if lead.constant_value() < 0 else 0)
-    return at_terms(top, terms), bottom * lead**even
+    """A quotient at such terms; all bottoms are numbers."""
+    top, bottom = quotient
+    for i, (_, lead) in terms.items():
+        bottom = bottom * lead ** (top.degree(i) + (top.degree(i) % 2 if lead.constant_value() < 0 else 0))
+    return at_terms(top, terms), bottom
 
 
 def witness(made: Made, after: Formula) -> None:
@@ -150,38 +151,29 @@ def sheared(made: Made, after: Formula) -> None:
 
 def positioned(made: Made, after: Formula) -> None:
     """Affine coordinates in place of the variables of a block, by one variable after the other."""
-    claim, index = made.claim, made.ring.index
+    index = made.ring.index
     there: dict[str, Quotient] = {}
     back: dict[str, Quotient] = {}
-    for entry in only(claim, "values")[0].items():
+    for entry in only(made.claim, "values")[0].items():
         variable, listed = entry.row("variable", "coefficients")
         rows = [row.row("variable or 1", "rational number") for row in listed.items()]
         form = {name.text(): c.rational() for name, c in rows}
         name, lead = variable.text(), form.get(variable.text(), Fraction(0))
         if not lead:
             raise entry.fail("expected a form in the variable")
-        value = _linear(form, {}, claim)
+        value = _linear(form, made.ring)
         there = {v: _at(q, {index[name]: value}) for v, q in there.items()}
         there.setdefault(name, value)
         inverse = {v: -c / lead for v, c in form.items()} | {name: 1 / lead}
-        back[name] = _linear(inverse, back, claim)
+        back[name] = _at(_linear(inverse, made.ring), {index[v]: q for v, q in back.items()})
     made.terms(made.current, after, there, back)
 
 
-def _linear(form: Mapping[str, Fraction], values: Mapping[str, Quotient], claim: Claim) -> Quotient:
-    """A linear form, with "1" for the number in it, at quotients whose bottoms are numbers."""
-    ring = claim.ring
-    one = ring.constant(1)
-    parts = {v: (one, one) if v == "1" else values.get(v, (ring.var(v), one)) for v in form}
-    whole = lcm(*(c.denominator * parts[v][1].constant_value() for v, c in form.items()))
-    top = sum(
-        (
-            p * int(c * Fraction(whole, q.constant_value()))
-            for (p, q), c in zip(parts.values(), form.values(), strict=True)
-        ),
-        ring.constant(0),
-    )
-    return top, ring.constant(whole)
+def _linear(form: Mapping[str, Fraction], ring: Ring) -> Quotient:
+    """A linear form, with "1" for the number in it."""
+    whole = lcm(*(c.denominator for c in form.values()))
+    parts = (int(c * whole) * (ring.constant(1) if v == "1" else ring.var(v)) for v, c in form.items())
+    return sum(parts, ring.constant(0)), ring.constant(whole)
 
 
 def distributed(made: Made, after: Formula) -> None:
