@@ -47,8 +47,8 @@ def decided(
     strict = [i for i in inequalities if system.rows[i].is_strict]
     for slack in map(frozenset, (strict, inequalities) if system.is_sparse else (inequalities, strict)):
         scales = [max(map(abs, row.terms.values())) if i in slack else 0 for i, row in enumerate(system.rows)]
-        problem: Slackened | None = Slackened(system, scales)
-        while problem is not None:
+        problem = Slackened(system, scales)
+        while True:
             try:
                 proposal = propose(problem, seconds())
             except OverflowError:
@@ -62,16 +62,12 @@ def decided(
             vertex = _vertex(problem, proposal)
             if vertex is not None and system.holds(vertex[:-1]):
                 return vertex[:-1]
-            problem = _closer(problem, vertex)
+            if vertex is None or problem.zoom >= _CLOSEST:
+                break
+            problem = replace(problem, centre=vertex, zoom=problem.zoom << 20)  # floats took that for a solution
+            if problem.is_solved:
+                break
     return None
-
-
-def _closer(problem: Slackened, vertex: tuple[Fraction, ...] | None) -> Slackened | None:
-    """The same problem, seen from a vertex that floats took for a solution; None where it is one, or close enough."""
-    if vertex is None or problem.zoom >= _CLOSEST:
-        return None
-    closer = replace(problem, centre=vertex, zoom=problem.zoom << 20)
-    return None if closer.is_solved else closer
 
 
 def _rounded(problem: Slackened, proposal: Proposal) -> tuple[Fraction, ...] | None:

@@ -290,7 +290,8 @@ def _separate(point: Point, sections: list[Section], polys: Sequence[Poly], over
         a, b = clash
         key = (id(a), id(b)) if id(a) < id(b) else (id(b), id(a))
         if key not in apart:
-            equal = _same_number(a.value, b.value)
+            in_fibre = isinstance(a.value, FibreRoot) or isinstance(b.value, FibreRoot)
+            equal = None if in_fibre else type(a.value) is type(b.value) and bool(a.value == b.value)
             if equal is None and min(a.bits, b.bits) >= EXACT_FROM:
                 i, j = a.members[0], b.members[0]
                 left, right = Side(a.ball, polys[i], over[i].shape), Side(b.ball, polys[j], over[j].shape)
@@ -307,13 +308,6 @@ def _separate(point: Point, sections: list[Section], polys: Sequence[Poly], over
         with precision(bits + 16):
             a.refine(bits)
             b.refine(bits)
-
-
-def _same_number(a: fmpq | RealAlgebraic | FibreRoot, b: fmpq | RealAlgebraic | FibreRoot) -> bool | None:
-    """Whether two numbers are the same; None where one of them is a root of a fibre."""
-    if isinstance(a, FibreRoot) or isinstance(b, FibreRoot):
-        return None
-    return type(a) is type(b) and bool(a == b)
 
 
 def _weight(s: Section) -> int:

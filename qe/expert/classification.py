@@ -102,7 +102,8 @@ def sentence(evidence: Entry) -> Sentence:
 
     def solutions(k: int) -> Formula:
         """That there are k different ones."""
-        parts = [disj(_differ(ring, x, y) for x, y in zip(*pair, strict=True)) for pair in combinations(points[:k], 2)]
+        pairs = (zip(*pair, strict=True) for pair in combinations(points[:k], 2))
+        parts = [disj(atom(ring.var(x) - ring.var(y), Relation.NE) for x, y in pair) for pair in pairs]
         for point in points[:k]:
             place = Ring.of((*own, *point))
             for group, relation in zip(groups[:2], (Relation.EQ, Relation.GT), strict=True):
@@ -111,16 +112,12 @@ def sentence(evidence: Entry) -> Sentence:
         return exists([v for point in points[:k] for v in point], conj(parts))
 
     def is_number(k: int) -> Formula:
-        return atom(ring.gen(ring.index[count]) - k, Relation.EQ)
+        return atom(ring.var(count) - k, Relation.EQ)
 
     exactly = [conj((is_number(k), solutions(k), neg(solutions(k + 1)))) for k in range(most + 1)]
     before = disj((*exactly, conj((is_number(most + 1), solutions(most + 1)))))
     after = disj(conj((is_number(k), convert(f, ring))) for k, f in classes if k is not None)
     return conj((where, before)), conj((where, after))
-
-
-def _differ(ring: Ring, one: str, other: str) -> Formula:
-    return atom(ring.gen(ring.index[one]) - ring.gen(ring.index[other]), Relation.NE)
 
 
 def _renamed(entry: Entry, there: Ring, here: Ring) -> Poly:

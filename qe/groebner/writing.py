@@ -14,13 +14,10 @@ _STYLE = "border-collapse:collapse", "border-bottom:1px solid #ccc;padding:0.4em
 
 def system_to_latex(rows: Sequence[tuple[Formula, Sequence[Poly]]]) -> str:
     """An array: the condition of a segment beside the equations of its basis."""
-    lines = [f"{latex.write(condition)} & {_elements_in_latex(basis)}" for condition, basis in rows]
+    bases = (" \\\\ ".join(map(latex.write, _equations(basis))) for _, basis in rows)
+    arrays = (f"\\begin{{array}}{{l}}{equations}\\end{{array}}" for equations in bases)
+    lines = [f"{latex.write(condition)} & {array}" for (condition, _), array in zip(rows, arrays, strict=True)]
     return "\\begin{array}{l|l}\n" + " \\\\ \\hline\n".join(lines) + "\n\\end{array}"
-
-
-def _elements_in_latex(basis: Sequence[Poly]) -> str:
-    written = [latex.write(f) for f in _equations(basis)]
-    return "\\begin{array}{l}" + " \\\\ ".join(written) + "\\end{array}"
 
 
 def system_to_html(rows: Sequence[tuple[Formula, Sequence[Poly], int]]) -> str:

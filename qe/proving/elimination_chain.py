@@ -41,7 +41,8 @@ def member(target: Poly, generators: Sequence[Poly], budget: Budget) -> tuple[in
         return None
     if not all(generators):
         rest = member(target, [g for g in generators if g], budget)
-        return rest and (rest[0], _with_zeros(rest[1], generators))
+        factors_of = iter(rest[1] if rest else ())
+        return rest and (rest[0], [next(factors_of) if g else g for g in generators])
     search = _Chain(generators, 0, budget)
     seen, factors, scale = -1, dict[int, Terms](), 1
 
@@ -61,12 +62,6 @@ def member(target: Poly, generators: Sequence[Poly], budget: Budget) -> tuple[in
         return None
     number *= -scale  # the target is what was taken away from it
     return (number, combination) if number > 0 else (-number, [-c for c in combination])
-
-
-def _with_zeros(cofactors: Sequence[Poly], generators: Sequence[Poly]) -> list[Poly]:
-    """The cofactors of the generators that are not 0, and 0 for the others."""
-    left = iter(cofactors)
-    return [next(left) if g else g for g in generators]
 
 
 class _Chain:

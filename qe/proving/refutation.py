@@ -27,14 +27,14 @@ Sources = int
 
 
 class Explained(Clauses):
-    """Clauses whose variables know the sources of the signs that are left to them."""
+    """Clauses whose variables know the sources of the signs that are left to them; ``about``: the lemmas on each."""
 
     def __init__(self, tick: Callable[[], None]) -> None:
         super().__init__(tick)
         self.reasons: list[Sources] = []
         self._conflict: Sources | None = None
         self._listed: list[list[tuple[list[Literal], Sources]]] = []
-        self._about: list[list[Lemma]] = []
+        self.about: list[list[Lemma]] = []
         self._sources: dict[Lemma, Sources] = {}
 
     def new(self, signs: int) -> int:
@@ -42,7 +42,7 @@ class Explained(Clauses):
         self.domains.append(signs)
         self.reasons.append(0)
         self._listed.append([])
-        self._about.append([])
+        self.about.append([])
         return len(self.domains) - 1
 
     def taught(self, lemma: Lemma, source: Sources) -> None:
@@ -50,11 +50,7 @@ class Explained(Clauses):
         self._sources[lemma] = source
         self._due[lemma] = None
         for i in lemma.polynomials:
-            self._about[i].append(lemma)
-
-    def lemmas_about(self, i: int) -> int:
-        """How many lemmas say something of a variable."""
-        return len(self._about[i])
+            self.about[i].append(lemma)
 
     def add(self, literals: Iterable[Literal], sources: Sources = 0) -> None:
         """As ``Clauses.add``, with the sources of the clause."""
@@ -98,7 +94,7 @@ class Explained(Clauses):
                 i = changed.popitem()[0]
                 if not domains[i]:
                     return reasons[i]
-                due |= dict.fromkeys(self._about[i])
+                due |= dict.fromkeys(self.about[i])
                 changed |= dict.fromkeys(self._made(i, domains, reasons))
                 continue
             lemma = due.popitem()[0]
@@ -255,7 +251,7 @@ class Refutation:
         self._splits -= 1
         if self._splits < 0:
             raise Unable("too many cases of signs")
-        i = max(undecided, key=self.clauses.lemmas_about)
+        i = max(undecided, key=lambda i: len(self.clauses.about[i]))
         return [(i, s) for s in (NEGATIVE, ZERO, POSITIVE) if domains[i] & s]
 
     def _open(self, formulas: Iterable[Formula], domains: Domains) -> Iterator[Or]:

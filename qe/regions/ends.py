@@ -10,7 +10,7 @@ from typing import Any
 import numpy
 
 from qe.decomposition.pieces import Piece, RootFunction
-from qe.exact.algebraic import RealAlgebraic, real_roots
+from qe.exact.algebraic import real_roots
 from qe.exact.ring import Poly
 
 Span = tuple[float, float]
@@ -44,7 +44,8 @@ def _at(root: RootFunction | None, values: Mapping[int, float], fallback: float,
         return float(pair[root.k - 1])
     roots = numpy.roots(coefficients[::-1])
     if not thin and _are_close(roots):
-        exact = [float(r) for r in _exact_roots(root.poly, values)]
+        poly = root.poly.at_rationals({i: Fraction(values[i]) for i in root.poly.variables[:-1]})
+        exact = [] if poly.is_constant else [float(r) for r in real_roots(poly.to_univariate(poly.level))]
         return exact[min(root.k, len(exact)) - 1] if exact else fallback
     real: list[float] = sorted(float(z.real) for z in roots if abs(z.imag) < 1e-6 * max(1.0, abs(z)))
     if thin:
@@ -56,12 +57,6 @@ def _are_close(roots: numpy.ndarray[Any, Any]) -> bool:
     """Whether two roots are so near to each other that floating point may not tell whether they are real."""
     apart = numpy.abs(roots[:, None] - roots) + 9 * numpy.eye(len(roots)) * (1 + abs(roots))
     return bool((apart < CLOSE * (1 + numpy.abs(roots))).any())
-
-
-def _exact_roots(poly: Poly, values: Mapping[int, float]) -> list[RealAlgebraic]:
-    for i in poly.variables[:-1]:
-        poly = poly.at_rational(i, Fraction(values[i]))
-    return [] if poly.is_constant else real_roots(poly.to_univariate(poly.level))
 
 
 @functools.lru_cache(maxsize=64)

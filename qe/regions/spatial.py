@@ -125,7 +125,7 @@ class Space:
         bits = _FIRST_BITS
         while True:
             self.budget.check("a way between cells", bits)
-            way = self._way(near, cell, bits)
+            way = (self._upright if near[0] == cell[0] else self._sideways)(near, cell, bits)
             if without_zeros(barriers, way.sides, bits + 64):
                 break
             bits *= 2
@@ -142,12 +142,6 @@ class Space:
             heights = stack_at(self.table, near).sectors
             stored = self._at_heights[near] = [f.at_rational(2, s) for s in heights for f in self.table.factors[2]]
         return stored
-
-    def _way(self, near: Place, cell: Place, bits: int) -> Way:
-        """From the sample of a cell of the plane into another cell next to it, the shorter the more ``bits``."""
-        if near[0] == cell[0]:
-            return self._upright(near, cell, bits)
-        return self._sideways(near, cell, bits)
 
     def _upright(self, near: Place, cell: Place, bits: int) -> Way:
         """Along the line through the sample of a section, up or down into the sector next to it."""

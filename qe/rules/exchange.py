@@ -80,8 +80,9 @@ def by_sum_and_product(body: Formula, i: int, j: int) -> Formula | None:
     rest = list(conjuncts(body))
     while rest:
         part = rest.pop(0)
-        if all(_symmetry(a.poly, i, j) or (_symmetry(a.poly, i, j, -1) and _is_of_squares(a)) for a in atoms(part)):
-            parts.append(map_atoms(part, lambda a: _in_new_terms(a, i, j)))
+        images = {a: _in_new_terms(a, i, j) for a in atoms(part)}
+        if None not in images.values():
+            parts.append(map_atoms(part, lambda a, images=images: images[a] or a))  # type: ignore[misc]
             continue
         if not isinstance(part, Atom):
             return None
@@ -94,19 +95,12 @@ def by_sum_and_product(body: Formula, i: int, j: int) -> Formula | None:
     return conj(parts)
 
 
-def _symmetry(poly: Poly, i: int, j: int, sign: int = 1) -> bool:
-    """Whether the exchange multiplies the polynomial by the sign."""
-    return _swapped(poly, i, j) == poly * sign
-
-
-def _is_of_squares(atomic: Atomic) -> bool:
-    """Whether p^2 may stand for p: in equations and inequations."""
-    return isinstance(atomic, Atom) and atomic.relation in (Relation.EQ, Relation.NE)
-
-
-def _in_new_terms(atomic: Atomic, i: int, j: int) -> Formula:
-    poly = atomic.poly if _symmetry(atomic.poly, i, j) else atomic.poly**2
-    return atom(symmetric(poly, i, j), atomic.relation)
+def _in_new_terms(atomic: Atomic, i: int, j: int) -> Formula | None:
+    """A condition that the exchange leaves alone, with p^2 for p in an equation or inequation where p changes sign."""
+    poly, swapped = atomic.poly, _swapped(atomic.poly, i, j)
+    if swapped == -poly and isinstance(atomic, Atom) and atomic.relation in (Relation.EQ, Relation.NE):
+        poly = swapped = poly**2
+    return atom(symmetric(poly, i, j), atomic.relation) if swapped == poly else None
 
 
 def _both(p: Poly, q: Poly, relation: Relation, i: int, j: int) -> tuple[Formula, ...]:

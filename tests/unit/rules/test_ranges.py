@@ -112,7 +112,7 @@ def test_no_point_is_lost(conditions: list[tuple[str, str, int]]) -> None:
 def said(text: str, change: Callable[[dict[str, Any]], None] = lambda evidence: None) -> str:
     """Why a step with this evidence is none of the kernel's; nothing where it is."""
     (step,) = steps_of(read(text), StepKind.RANGES)
-    evidence = prover(step)._plain(step.evidence["proof"])  # type: ignore[arg-type]
+    evidence: Any = prover(step)._json(step.evidence["proof"])
     change(evidence)
     return refused(RULE, step.before, step.after, evidence)
 
@@ -143,7 +143,7 @@ def test_what_is_refused(name: str) -> None:
 
 def test_only_a_block_that_becomes_false() -> None:
     (step,) = steps_of(read(FALSE_ONES[0]), StepKind.RANGES)
-    evidence = prover(step)._plain(step.evidence["proof"])  # type: ignore[arg-type]
+    evidence: Any = prover(step)._json(step.evidence["proof"])
     for before, after in ((step.before, read("x0 > 1")), (read("x0*x1 > 1"), FALSE)):
         assert refused(RULE, before, after, evidence)
 
