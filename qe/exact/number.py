@@ -57,6 +57,11 @@ def simplest(value: Number) -> Number:
     return value
 
 
+def rational_ends(value: Number, bits: int) -> tuple[Fraction, Fraction]:
+    """Rational numbers around a number, close together; the number itself, twice, where it is known to be rational."""
+    return value.interval(bits) if isinstance(value, RealAlgebraic) else (value, value)
+
+
 def square_root(value: Number) -> Number:
     """The square root of a number that is not negative.
 

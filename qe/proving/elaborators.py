@@ -51,7 +51,8 @@ def by_theorem(made: Made, block: Exists) -> None:
     """The block's answer in its place, by a theorem of the family that is called like the rule."""
     for match in matches((made.claim.rule,), block.variables, block.body):
         with suppress(CertificateRejected):
-            return made.by_lemmas("theorem", theorem_goals, block, nnf(match.formula("answer")), match.evidence)
+            answer = nnf(match.formula("answer"))
+            return made.by_lemmas("theorem", theorem_goals, block, answer, match.evidence, used=())
     raise made.claim.fail("not an instance of a theorem")
 
 
@@ -146,7 +147,7 @@ def sheared(made: Made, after: Formula) -> None:
     cases = [exists(block.variables, conj((atom(m, rel), block.body))) for rel in (Relation.NE, Relation.EQ)]
     regular = next((part for part in disjuncts(after) if part != cases[1]), after)
     made.simplified(block, disj(cases))
-    return made.terms(cases[0], regular, there, back)
+    return made.terms(cases[0], regular, there, back, used=())
 
 
 def positioned(made: Made, after: Formula) -> None:

@@ -8,7 +8,7 @@ from random import Random
 
 from qe.decomposition.interval import Interval, Number
 from qe.exact.nearby import rational_between
-from qe.exact.number import ExactPoint, Values, simplest
+from qe.exact.number import ExactPoint, Values, rational_ends, simplest
 from qe.options import Budget
 from qe.regions.region import Region
 
@@ -65,14 +65,10 @@ def _value(offered: Interval, random: Random, steps: int) -> Number:
         return simplest(lower)
     middle = rational_between(lower, upper)
     low, high = (middle - FAR if lower is None else lower), (middle + FAR if upper is None else upper)
-    start, stop = _rational(low), _rational(high)
+    start, stop = (sum(rational_ends(end, 64), Fraction(0)) / 2 for end in (low, high))
     grid = _grid(stop - start, steps)
     value = Fraction(round((start + (stop - start) * Fraction(random.random())) / grid)) * grid
     return value if value in offered else middle
-
-
-def _rational(number: Number) -> Fraction:
-    return number if isinstance(number, Fraction) else sum(number.interval(64), Fraction(0)) / 2
 
 
 def _grid(width: Fraction, steps: int) -> Fraction:

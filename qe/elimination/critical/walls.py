@@ -28,9 +28,10 @@ from qe.decomposition.interval import Number
 from qe.elimination.critical.open_cells import Holds, Values, true_run
 from qe.elimination.critical.system import System
 from qe.errors import BudgetExceeded, Unable
-from qe.exact.algebraic import RealAlgebraic, real_roots
+from qe.exact.algebraic import real_roots
 from qe.exact.fibre_stack import isolate_over
 from qe.exact.nearby import rational_between, without_zeros
+from qe.exact.number import rational_ends
 from qe.exact.ring import Poly
 from qe.exact.sample import Point
 from qe.options import Budget
@@ -78,7 +79,8 @@ def walls_in_plane(surfaces: frozenset[Poly], box: Box, holds: Holds, origin: Po
     ``holds``: membership of rational points. Polynomials are taken into W (see above) until it is large enough.
     Raises ``BudgetExceeded``.
     """
-    (left, right), outer = box[0], tuple(map(_outer, box))
+    (left, right) = box[0]
+    outer = tuple((rational_ends(low, BITS)[0], rational_ends(high, BITS)[1]) for low, high in box)
     near = [f for f in surfaces if not _misses(f, outer, HALVINGS)]
     upright, others = [f for f in near if not f.level], tuple(f for f in near if f.level)
     seen: dict[Fraction, Fibre] = {}
@@ -130,12 +132,6 @@ def _between(left: Number, right: Number, polys: Iterable[Poly]) -> list[Fractio
     roots = {root for f in factors for root in real_roots(f.to_univariate(0)) if left < root < right}
     ends = [left, *sorted(roots), right]
     return [rational_between(a, b) for a, b in pairwise(ends)]
-
-
-def _outer(side: tuple[Number, Number]) -> tuple[Fraction, Fraction]:
-    """Rational numbers around an interval."""
-    low, high = (end.interval(BITS) if isinstance(end, RealAlgebraic) else (end, end) for end in side)
-    return low[0], high[1]
 
 
 def _misses(f: Poly, box: tuple[tuple[Fraction, Fraction], ...], halvings: int) -> bool:
