@@ -6,8 +6,6 @@ answer is read off the polyhedron's vertices and directions (``qe.convex.vertice
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-
 from qe.convex.linear_rows import LinearRows, linear_atoms
 from qe.convex.polyhedron import Check, Polyhedron
 from qe.convex.shadow import shadow
@@ -46,7 +44,10 @@ class Projection:
             if positive is None:
                 return None
             after = nnf(positive, negate=problem.universal)
-            shortest = _is_irredundant(linear_atoms(nnf(positive, negate=True)), check)
+            atoms = linear_atoms(nnf(positive, negate=True))
+            polyhedron = Polyhedron.of(LinearRows.of(atoms))
+            kept = polyhedron.irredundant(check)
+            shortest = kept is not None and 0 < len(kept.halves) == len(polyhedron.halves) == len(atoms)
             return Outcome(context.log.step("projection", problem.formula, after), shortest=shortest)
         system = LinearRows.of(atoms)
         bound = [j for j, name in enumerate(system.names) if name in problem.variables]
@@ -54,13 +55,6 @@ class Projection:
         positive = FALSE if projected is None else _formula(projected, system.names, problem.free)
         after = nnf(positive, negate=problem.universal)
         return Outcome(context.log.step("projection", problem.formula, after), shortest=True)
-
-
-def _is_irredundant(atoms: Sequence[Atom], check: Check) -> bool:
-    """Whether none of these linear conditions follows from the others."""
-    polyhedron = Polyhedron.of(LinearRows.of(atoms))
-    kept = polyhedron.irredundant(check)
-    return kept is not None and 0 < len(kept.halves) == len(polyhedron.halves) == len(atoms)
 
 
 def _formula(projected: Polyhedron, names: tuple[str, ...], free: tuple[str, ...]) -> Formula:

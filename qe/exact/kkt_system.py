@@ -215,7 +215,9 @@ def critical_point(
             return None
         return NumberField.rationals(), flat.lift(solution.particular)
     z = flat.coordinates(near)
-    newton = _Newton(f, rest, z + _multipliers(f, rest, z))
+    start = [Fraction(v) for v in z]
+    multipliers = _least_squares([q.slope(start) for q in rest], [-c for c in f.slope(start)])
+    newton = _Newton(f, rest, z + multipliers)
     limit = newton.at(64)
     if limit is None:
         return None
@@ -242,12 +244,6 @@ def _primitive(q: Quadratic) -> Quadratic:
     numbers = [c for row in q.hessian for c in row] + [*q.gradient, q.constant]
     scale = Fraction(lcm(*(c.denominator for c in numbers)), gcd(*(c.numerator for c in numbers)) or 1)
     return combine([scale], [q])
-
-
-def _multipliers(f: Quadratic, rest: Sequence[Quadratic], z: Sequence[float]) -> list[float]:
-    """Least-squares multipliers at z."""
-    point = [Fraction(v) for v in z]
-    return _least_squares([q.slope(point) for q in rest], [-c for c in f.slope(point)])
 
 
 def _least_squares(rows: Sequence[Sequence[Number]], target: Sequence[Number]) -> list[float]:

@@ -138,7 +138,8 @@ class Tower:
             shift = self.ring.qctx.constant(0)
             for weight, i in zip(weights, self.variables, strict=True):
                 shift += weight * gens[self.ring.slot(i)]
-            shifted = self.reduce(_replace(self.ring, f, variable, main - shift))
+            images = [main - shift if gen == main else gen for gen in gens]
+            shifted = self.reduce(f.compose(*images, ctx=self.ring.qctx))
             norm = self.norm(shifted, variable)
             if norm.gcd(norm.derivative()).degree() == 0:
                 break
@@ -184,12 +185,6 @@ def leading_in(ring: Ring, a: Element, variable: int) -> Element:
         else:
             break  # the main variable leads in the lexicographic order
     return ring.qctx.from_dict(terms)
-
-
-def _replace(ring: Ring, f: Element, variable: int, image: Element) -> Element:
-    images = list(ring.qctx.gens())
-    images[ring.slot(variable)] = image
-    return f.compose(*images, ctx=ring.qctx)
 
 
 def clear_denominators(ring: Ring, a: Element) -> Poly:

@@ -107,8 +107,8 @@ def sentence(evidence: Entry) -> Sentence:
         for point in points[:k]:
             place = Ring.of((*own, *point))
             for group, relation in zip(groups[:2], (Relation.EQ, Relation.GT), strict=True):
-                read = [_renamed(e, Ring.of((*own, *variables)), place) for e in group.items()]
-                parts += [atom(p.convert(ring), relation) for p in read]
+                read = (entry.polynomial(Ring.of((*own, *variables))) for entry in group.items())
+                parts += [atom(place.from_terms(dict(p.terms())).convert(ring), relation) for p in read]
         return exists([v for point in points[:k] for v in point], conj(parts))
 
     def is_number(k: int) -> Formula:
@@ -118,11 +118,6 @@ def sentence(evidence: Entry) -> Sentence:
     before = disj((*exactly, conj((is_number(most + 1), solutions(most + 1)))))
     after = disj(conj((is_number(k), convert(f, ring))) for k, f in classes if k is not None)
     return conj((where, before)), conj((where, after))
-
-
-def _renamed(entry: Entry, there: Ring, here: Ring) -> Poly:
-    """A polynomial with other names of its variables."""
-    return here.from_terms(dict(entry.polynomial(there).terms()))
 
 
 _MEMBERS = ("variables", "parameters", "constants", "polynomials", "positive", "equal", "nonzero", "classes", "proofs")

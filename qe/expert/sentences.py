@@ -55,18 +55,16 @@ def is_point(names: Sequence[str], values: Sequence[Number], field: RootField, r
     The last variable of the ring stands for that.
     """
     root = ring.gen(ring.size - 1)
-    numbers = [_is(ring, name, value, root) for name, value in zip(names, values, strict=True)]
+    numbers = []
+    for name, value in zip(names, values, strict=True):
+        number = _poly([int(c) for c in value.numer().coeffs()], root)
+        numbers.append(atom(int(value.denom()) * ring.var(name) - number, Relation.EQ))
     if all(value.degree() <= 0 for value in values):
         return conj(numbers)
     parts = [atom(_poly(field.coefficients, root), Relation.EQ)]
     parts += [atom(field.low.denominator * root - field.low.numerator, Relation.GE)]
     parts += [atom(field.high.denominator * root - field.high.numerator, Relation.LE)]
     return exists((ring.names[-1],), conj((*parts, *numbers)))
-
-
-def _is(ring: Ring, name: str, value: Number, root: Poly) -> Formula:
-    number = _poly([int(c) for c in value.numer().coeffs()], root)
-    return atom(int(value.denom()) * ring.var(name) - number, Relation.EQ)
 
 
 def _poly(coefficients: Sequence[int], x: Poly) -> Poly:

@@ -52,6 +52,7 @@ def solutions_certificate(
         if all(r.holds(z.sign(g)) for g, r in conditions)
     ]
     names = [ring.names[i] for i in places]
+    separating = (form for form in linear_forms(len(names)) if all(_generates(z, form, names) for z in found))
     intervals = _intervals([z.values[names[0]].field.theta for z in found])
     own = Ring.of(names)
     given = [*equations, *(from_univariate(ring, i, fixed[i].poly) for i in used)]
@@ -60,7 +61,7 @@ def solutions_certificate(
         "equations": [poly_to_text(p.convert(own).normal()[1]) for p in given if p],
         "conditions": [[poly_to_text(g.convert(own)), r.value] for g, r in wanted],
         "weights": list(basis.weights),
-        "form": list(_separating(found, names)),
+        "form": list(next(separating)),
         "solutions": [_solution(z, names, ends) for z, ends in zip(found, intervals, strict=True)],
     }
     return Certificate.step("solutions", names, *sentence(Entry(payload, "evidence"), Budget()), payload)
@@ -74,12 +75,6 @@ def _between(ring: Ring, i: int, number: RealAlgebraic) -> list[Condition]:
     low, high = number.interval()
     x = ring.gen(i)
     return [((low.denominator * x - low.numerator) * (high.numerator - high.denominator * x), Relation.GT)]
-
-
-def _separating(found: Sequence[Zero], names: Sequence[str]) -> list[int]:
-    """The linear form whose value at every zero generates its field."""
-    forms = linear_forms(len(names))
-    return next(form for form in forms if all(_generates(z, form, names) for z in found))
 
 
 def _generates(zero: Zero, form: Sequence[int], names: Sequence[str]) -> bool:

@@ -76,7 +76,8 @@ def _step(task: _Task, block: BlockOrder) -> tuple[list[Segment], list[_Task]]:
     rest = tuple(p for p in basis if not block.is_free(p))
     minimal = _minimal(rest, block)
     branches, avoided = [], list(task.nonzero)
-    for factor in _factors(minimal, block):
+    factors = dict.fromkeys(f for p in minimal for f, _ in block.lead(p)[1].factors()[1])
+    for factor in sorted(factors, key=_size):
         if factor in task.nonzero or not has_zeros([*base, factor], task.nonzero):
             continue  # it vanishes nowhere
         if has_zeros([*base, factor], avoided):
@@ -134,9 +135,3 @@ def _minimal(rest: Sequence[Poly], block: BlockOrder) -> tuple[Poly, ...]:
 
 def _size(poly: Poly) -> tuple[int, int]:
     return poly.total_degree, poly.term_count()
-
-
-def _factors(minimal: Sequence[Poly], block: BlockOrder) -> tuple[Poly, ...]:
-    """The irreducible factors of the leading coefficients, each once, small ones first."""
-    found = dict.fromkeys(f for p in minimal for f, _ in block.lead(p)[1].factors()[1])
-    return tuple(sorted(found, key=_size))

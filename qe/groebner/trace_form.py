@@ -60,14 +60,11 @@ class ParametricQuotient:
         return len(self.monomials)
 
     # --- normal forms ------------------------------------------------------------------------
-    def _unit(self, k: int) -> Vector:
-        one, zero = self.ring.constant(1), self.ring.constant(0)
-        return Vector(tuple(one if i == k else zero for i in range(self.size)), Powers())
-
     def normal_form(self, monomial: Exponents) -> Vector:
         """The coordinates of a monomial."""
         if monomial in self._place:
-            return self._unit(self._place[monomial])
+            one, zero = self.ring.constant(1), self.ring.constant(0)
+            return Vector(tuple(one if m == monomial else zero for m in self.monomials), Powers())
         if monomial not in self._known:
             self.budget.check("trace forms")
             self.budget.spend(5)
@@ -190,8 +187,8 @@ class ParametricQuotient:
         if factor is None:  # the trace of 1 is the number of solutions, times a square
             minors = (self.ring.constant(1), *minors[1:])
         is_hankel = len({k for m in self.monomials for k, e in enumerate(m) if e}) <= 1
-        squares = factor is None or _is_square(factor)
-        least = 0 if squares else None
+        unit, factors = (1, ()) if factor is None else factor.factors()
+        least = 0 if unit > 0 and all(power % 2 == 0 for _, power in factors) else None  # of a square
         return SignatureConditions(minors, lambda: self.characteristic(matrix), is_hankel, least, self.budget.check)
 
     def _leading_minors(self, matrix: Matrix) -> list[Poly]:
@@ -245,11 +242,6 @@ class ParametricQuotient:
             while (halved := _over_square(poly, factor)) is not None:
                 poly = halved
         return poly if unit >= 0 else -poly
-
-
-def _is_square(poly: Poly) -> bool:
-    unit, factors = poly.factors()
-    return unit > 0 and all(power % 2 == 0 for _, power in factors)
 
 
 def _over_square(poly: Poly, factor: Poly) -> Poly | None:

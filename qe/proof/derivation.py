@@ -7,7 +7,7 @@ facts C that hold wherever the place matters (conjuncts beside it), C implies (A
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable
 from dataclasses import dataclass, field
 
 from qe.exact.ring import Ring
@@ -70,7 +70,8 @@ def put_together(start: Formula, steps: Iterable[Step], answer: Formula, ring: R
     ``ring``: one that has all names, if there is one already.
     """
     listed = list(steps)
-    ring = ring or Ring.of(dict.fromkeys(n for f in (start, answer, *_formulas(listed)) for n in names_in(f)))
+    formulas = (start, answer, *(f for step in listed for f in (step.before, step.after, step.context)))
+    ring = ring or Ring.of(dict.fromkeys(name for f in formulas for name in names_in(f)))
     current = start = moved(start, ring)
     kept: list[Step] = []
     whole = [current]
@@ -107,11 +108,6 @@ def moved(formula: Formula, ring: Ring) -> Formula:
 def negated(formula: Formula) -> Formula:
     """The negation as it stands: steps inside it have their places there, which pushing it inwards would change."""
     return neg(formula) if isinstance(formula, Constant) else Not(formula)
-
-
-def _formulas(steps: Iterable[Step]) -> Iterator[Formula]:
-    for step in steps:
-        yield from (step.before, step.after, step.context)
 
 
 def _replaced(formula: Formula, before: Formula, after: Formula, path: Place, places: list[Place]) -> Formula:

@@ -2,14 +2,12 @@
 
 from __future__ import annotations
 
-from fractions import Fraction
-
 from qe.formula.build import conj, exists
 from qe.formula.evaluate import substituted
 from qe.formula.syntax import FALSE, Exists, Formula, Not
 from qe.kernel.negation import negation, normal
-from qe.kernel.step import Claim, only
-from qe.proof.entry import Entry, Json
+from qe.kernel.step import only
+from qe.proof.entry import Json
 from qe.proving.made import Made
 from qe.proving.scaling import along, moves
 
@@ -18,7 +16,10 @@ def constant_along(made: Made, after: Formula) -> None:
     """Neither side holds where the other does not: parameters at 0, to which the others are moved, show it."""
     claim, limits, before = made.claim, made.limits, made.current
     directions, steps = only(claim, "directions", "steps")
-    moved = [_move(direction, claim) for direction in directions.items()]
+    moved = []
+    for direction in directions.items():
+        variable, weights = direction.row("variable", "vector")
+        moved.append((variable.text(), moves(weights, variable.text(), claim)))
     start, end = (substituted(side, {name: 0 for name, _ in moved}) for side in (claim.before, claim.after))
     if limits.replay(steps, start, (), claim.ring) != end:
         raise steps.fail("the steps do not lead there")
@@ -44,9 +45,3 @@ def constant_along(made: Made, after: Formula) -> None:
             there.simplified(there.current, FALSE)
         lists.append(list(there.steps))
     made.step("no exception", before, after, {"exceptions": lists}, made.known)
-
-
-def _move(direction: Entry, claim: Claim) -> tuple[str, dict[str, Fraction]]:
-    """A variable that moves, and how the others do where it moves by 1."""
-    variable, weights = direction.row("variable", "vector")
-    return variable.text(), moves(weights, variable.text(), claim)

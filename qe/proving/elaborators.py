@@ -17,7 +17,7 @@ from qe.exact.ring import Ring
 from qe.formula.build import atom, conj, disj, exists
 from qe.formula.normal import nnf
 from qe.formula.syntax import TRUE, Atom, Exists, Formula, Relation
-from qe.formula.traverse import conjuncts, disjuncts, map_atoms
+from qe.formula.traverse import conjuncts, disjuncts
 from qe.kernel.block import existential
 from qe.kernel.root import root_goals
 from qe.kernel.step import Claim, Context, Limits, only
@@ -93,11 +93,9 @@ def exchanged(made: Made, after: Formula) -> None:
     if not isinstance(before, Exists) or not isinstance(after, Exists):
         raise made.claim.fail("two blocks expected")
     one, other = ring.var(z), ring.var(w)
-    by = {ring.index[x]: one + other, ring.index[y]: one * other}
-    apart_by = {ring.index[x]: one, ring.index[y]: other}
     apart = tuple({x: z, y: w}.get(v, v) for v in after.variables)
-    renamed = exists(apart, map_atoms(before.body, lambda a: atom(a.poly.compose(apart_by), a.relation)))
-    image = exists(apart, map_atoms(after.body, lambda a: atom(a.poly.compose(by), a.relation)))
+    renamed = exists(apart, made.put(before.body, {x: one, y: other}))
+    image = exists(apart, made.put(after.body, {x: one + other, y: one * other}))
     sums = [Atom((ring.var(v) - poly).normal()[1], Relation.EQ) for v, poly in ((x, one + other), (y, one * other))]
     values = [value(equation, v) for v, equation in zip((x, y), sums, strict=True)]
     named = Exists(tuple(dict.fromkeys((*apart, *after.variables))), conj((*sums, *conjuncts(after.body))))

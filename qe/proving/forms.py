@@ -65,7 +65,7 @@ def seen_along(made: Made, after: Formula) -> None:
     part, form = formula_from_json(given, ring), entry.polynomial(ring)
     if not isinstance(part, Atom) or not isinstance(after, Exists) or not {*names} <= {*before.variables}:
         raise given.fail("a comparison expected, and variables of the block")
-    t, first = made.fresh(), ring.index[names[0]]
+    t = made.fresh()
     letters, relation = _letters(part, form, [ring.index[v] for v in names], ring.var(t))
     strict = relation is Relation.LT
     words = (str(len(names)),) if strict else (str(len(names)), relation.value)
@@ -75,7 +75,7 @@ def seen_along(made: Made, after: Formula) -> None:
     variables = {f"x{k}": name for k, name in enumerate(names)}
     inner, answer = (used.formula(side, letters, variables, ring) for side in ("block", "answer"))
     naming = equal(ring.var(t), form)
-    final = made.mapped(after.body, lambda p: p.compose({first: ring.var(t)}))
+    final = made.put(after.body, {names[0]: ring.var(t)})
     rest = [f for f in conjuncts(final) if f not in conjuncts(answer)]
     whole = exists((t, *before.variables), conj((naming, before.body)))
     seen = exists((t, *before.variables), conj((part, naming, *rest)))

@@ -17,7 +17,7 @@ from qe.kernel.derivation import replaced
 from qe.kernel.negation import normal
 from qe.kernel.root import root_goals
 from qe.kernel.step import Claim, Context, Limits
-from qe.kernel.terms import Quotient, terms_goals
+from qe.kernel.terms import Quotient, at_terms, terms_goals
 from qe.proof.certificate import written
 from qe.proof.entry import Entry, Json, poly_to_text
 from qe.proof.step import Place
@@ -106,11 +106,13 @@ class Made:
         back = written("linear equation solved", (), after, before, (), solved(equation, name))
         self.step("converse", before, after, {"steps": [back]})
 
-    def mapped(self, formula: Formula, change: Callable[[Poly], Poly]) -> Formula:
-        """A formula with its polynomials changed. ``CertificateRejected`` where it has root atoms."""
+    def put(self, formula: Formula, terms: Mapping[str, Poly | Quotient]) -> Formula:
+        """A formula with terms for variables. ``CertificateRejected`` where it has root atoms."""
         if not all(isinstance(a, Atom) for a in atoms(formula)):
             raise self.claim.fail("no root atoms expected")
-        return map_atoms(formula, lambda a: atom(change(a.poly), a.relation))
+        one = self.ring.constant(1)
+        by = {self.ring.index[v]: (term, one) if isinstance(term, Poly) else term for v, term in terms.items()}
+        return map_atoms(formula, lambda a: atom(at_terms(a.poly, by), a.relation))
 
     def finished(self, after: Formula) -> list[Json]:
         """The steps, with one to the order in which the formula after has its parts."""

@@ -38,7 +38,7 @@ def mirrored(made: Made, after: Formula) -> None:
     inner = made.current
     assert isinstance(inner, Exists)
     plain = [f for f in conjuncts(inner.body) if not isinstance(f, ForAll)]
-    middle = exists(names, conj((inner.body, *(_put(f, centre, made) for f in plain))))
+    middle = exists(names, conj((inner.body, *(made.put(f, centre) for f in plain))))
     _follow(made, inner, middle, plain, here, centre)
     made.terms(middle, wanted, fixed, {name: centre[name] for name in here if name not in gone})
 
@@ -55,14 +55,14 @@ def _gathered(formula: Formula, images: Images) -> Formula:
 def _with_middle(made: Made, part: ForAll, images: Images, here: Images, centre: Mapping[str, Quotient]) -> None:
     """What holds for all values, at the image and in the middle, too."""
     there = {v: (images[v], made.ring.constant(1)) for v in part.variables if v in images}
-    turned = ForAll(part.variables, _put(part.body, {v: (p, made.ring.constant(1)) for v, p in here.items()}, made))
+    turned = ForAll(part.variables, made.put(part.body, here))
     both = forall(part.variables, conj((part.body, turned.body)))
     if turned != part:
         back = Made(made.claim, made.limits, both)
         back.moved(both, conj((part, turned)))
         back.terms(turned, part, there, there)
         made.back(part, both, back)
-    middle = ForAll(part.variables, _put(part.body, centre, made))
+    middle = ForAll(part.variables, made.put(part.body, centre))
     all_three = forall(part.variables, conj((part.body, turned.body, middle.body)))
     _follow(made, both, all_three, [part.body], here, centre)
     made.moved(all_three, conj((part, turned, middle)))
@@ -82,11 +82,6 @@ def _follow(
             twice = next((n for n in (1, 2) if (poly + image) * n == value * 2), None)
             listed.append([(twice or 1, ((poly, 1),)), (twice or 1, ((image, 1),)), (-2, ((value, 1),))])
     made.signs(before, after, identities(listed, made.ring))
-
-
-def _put(formula: Formula, terms: Mapping[str, Quotient], made: Made) -> Formula:
-    by = {made.ring.index[v]: q for v, q in terms.items()}
-    return made.mapped(formula, lambda p: at_terms(p, by))
 
 
 def _images(entry: Entry, claim: Claim) -> Images:

@@ -12,9 +12,9 @@ from math import lcm
 from qe.exact.ring import Poly, Ring
 from qe.formula.build import atom, conj, disj, exists
 from qe.formula.syntax import TRUE, Atom, Exists, ForAll, Formula, Relation
-from qe.formula.traverse import children, disjuncts, map_atoms, with_child
+from qe.formula.traverse import children, disjuncts, with_child
 from qe.kernel.step import Claim, Context, only
-from qe.kernel.terms import Quotient, at_terms
+from qe.kernel.terms import Quotient
 from qe.proof.entry import Entry
 from qe.proof.step import Place
 from qe.proving.made import Made, at_number, solved
@@ -43,12 +43,13 @@ def scaled(made: Made, goal: Formula) -> None:
             continue
         body = block.body
         if s < 0 and root % 2 == 0:
-            side, body = 1, _with(body, x, -ring.gen(x))
+            side, body = 1, made.put(body, {name: -ring.gen(x)})
             turned = exists(block.variables, conj((atom(ring.gen(x), _SIDE[1]), body)))
             made.terms(case, turned, {name: (-ring.gen(x), one)}, {name: (-ring.gen(x), one)})
             case = turned
         if root > 1:
-            high = exists(block.variables, conj((atom(ring.gen(x), _SIDE[side]), _with(body, x, ring.gen(x) ** root))))
+            sign = atom(ring.gen(x), _SIDE[side])
+            high = exists(block.variables, conj((sign, made.put(body, {name: ring.gen(x) ** root}))))
             assert isinstance(high, Exists)
             lowering = Made(claim, made.limits, high)
             lower(lowering, high, case, name, root)
@@ -59,10 +60,10 @@ def scaled(made: Made, goal: Formula) -> None:
         back = {v: _times(ring, v, unit, -power) for v, power in whole.items()}
         known = (atom(ring.gen(x), _SIDE[side]),)
         moved = moved_inside(made, case, made.place(case), times, back, known, start=True)
-        image = _image(after, {v: q for v, q in back.items() if v in rest}, known, rest, ring)
+        outer = {v: q for v, q in back.items() if v in rest}
+        image = made.put(after.body if isinstance(after, Exists) and rest else after, outer)
         regular = exists(block.variables, conj((*known, image)))
         made.simplified(moved, regular)
-        outer = {v: q for v, q in back.items() if v in rest}
         made.terms(regular, after, {name: (one * side, one)}, outer)
 
 
@@ -105,8 +106,7 @@ def moved_inside(
     """
     if isinstance(formula, Exists | ForAll) and not start and (names := set(formula.variables) & there.keys()):
         inner, outer = ({v: of[v] for v in sorted(names)} for of in (there, back))
-        by = {made.ring.index[v]: quotient for v, quotient in inner.items()}
-        moved = map_atoms(formula, lambda a: atom(at_terms(a.poly, by), a.relation))
+        moved = made.put(formula, inner)
         made.terms(formula, moved, inner, outer, place=place, used=known)
         formula = moved
     for k, child in enumerate(children(formula)):
@@ -115,20 +115,9 @@ def moved_inside(
     return formula
 
 
-def _image(formula: Formula, back: Mapping[str, Quotient], known: Context, rest: list[str], ring: Ring) -> Formula:
-    """The body of a block at these terms for its variables."""
-    by = {ring.index[v]: quotient for v, quotient in back.items()}
-    body = formula.body if isinstance(formula, Exists) and rest else formula
-    return map_atoms(body, lambda a: atom(at_terms(a.poly, by), a.relation))
-
-
 def _times(ring: Ring, name: str, unit: Poly, power: int) -> Quotient:
     """name * unit^power, as a quotient."""
     return ring.var(name) * unit ** max(power, 0), unit ** max(-power, 0)
-
-
-def _with(formula: Formula, x: int, value: Poly) -> Formula:
-    return map_atoms(formula, lambda a: atom(a.poly.compose({x: value}), a.relation))
 
 
 def along(ring: Ring, name: str, by: Fraction, variable: str) -> Quotient:

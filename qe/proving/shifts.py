@@ -77,11 +77,11 @@ def lower(made: Made, block: Exists, low: Formula, name: str, power: int) -> Non
     x, place = ring.gen(ring.index[name]), ring.var(y)
     if not isinstance(low, Exists) or name not in low.variables:
         raise made.claim.fail("a block with the variable expected")
-    at_y = made.mapped(low.body, lambda p: p.compose({ring.index[name]: place}))
+    at_y = made.put(low.body, {name: place})
     signs = {a.relation for a in atoms(block.body) if isinstance(a, Atom) and a.poly == x}
     bound = atom(x, Relation.GE) if power % 2 == 0 and signs & {Relation.GT, Relation.GE} else TRUE
     equation = equal(place, x**power)
-    image = exists(block.variables, conj((bound, made.mapped(at_y, lambda p: p.compose({ring.index[y]: x**power})))))
+    image = exists(block.variables, conj((bound, made.put(at_y, {y: x**power}))))
     names = [y if v == name else v for v in low.variables]
     whole = exists((*names, name), conj((equation, bound, at_y)))
     root = Exists((name,), conj((equation, bound)))

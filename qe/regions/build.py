@@ -37,7 +37,8 @@ def described(
         if shadow is not None:
             return ConvexRegion(shadow, names, limits=limits)
     options = Options(order=names, certify=check)
-    if many and not quantified and has_system(given):
+    equations = [p for p in conjuncts(given) if isinstance(p, Atom) and p.relation is Relation.EQ]
+    if many and not quantified and len(equations) > 1:
         log = RunLog()
         better = untangled(given, Context(options, budget, log), size=degrees)
         region = Region.of(better, names or given.free, budget=budget, limits=limits)
@@ -56,11 +57,6 @@ def described(
         region.reason = ""
     region.answer = answer_to(formula, proved(formula, outcome, options, budget))
     return region
-
-
-def has_system(formula: Formula) -> bool:
-    """Whether several equations hold together, of which others may be made that are easier to decompose."""
-    return sum(isinstance(part, Atom) and part.relation is Relation.EQ for part in conjuncts(formula)) > 1
 
 
 def _counted(formula: Formula, given: Formula) -> Answer:

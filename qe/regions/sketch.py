@@ -91,7 +91,7 @@ def _sketched(region: Region, order: tuple[str, ...]) -> Sketch:
         return Sketch(order, region.is_empty, solid=shape, frame=frame)
     spans = tuple(_span(region, name) for name in order)
     if len(order) == 1:
-        segments = [_segment(piece, spans[0]) for piece in region.cells]
+        segments = [Segment(*ends(p, 0, {}, spans[0]), *_closed(p.ranges[0])) for p in region.cells]
         return Sketch(order, region.is_empty, spans, segments=tuple(segments))
     return Sketch(order, region.is_empty, spans, bands=tuple(_band(p, spans) for p in region.cells))
 
@@ -105,11 +105,6 @@ def _span(region: Region, variable: str) -> Span:
     hi = float(upper) if upper is not None else (float(lower) if lower is not None else 0.0) + UNBOUNDED
     pad = MARGIN * (hi - lo) or max(1.0, MARGIN * abs(lo))  # more than the spacing of floats
     return lo - pad, hi + pad
-
-
-def _segment(piece: Piece, span: Span) -> Segment:
-    own = piece.ranges[0]
-    return Segment(*ends(piece, 0, {}, span), *_closed(own))
 
 
 def _closed(own: Range) -> tuple[bool | None, bool | None]:

@@ -28,7 +28,7 @@ def groebner_equations(variables: tuple[str, ...], body: Formula, context: Block
     reduced = [eq.reduce_atoms(f, basis, context.watch) for f in others]
     if set(chosen) == set(equations) and reduced == others:
         return None
-    result = conj((eq.equal_to_zero(chosen), *reduced))
+    result = conj((*(atom(p, Relation.EQ) for p in chosen), *reduced))
     node = NEVER if result == FALSE else Pending(variables, result)
     return Found(StepKind.GROEBNER, eq.describe(chosen), node)
 

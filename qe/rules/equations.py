@@ -170,11 +170,6 @@ def factor_choice(equations: Sequence[Poly], limit: int) -> tuple[int, tuple[Pol
     return best
 
 
-def equal_to_zero(polys: Sequence[Poly]) -> Formula:
-    """The conjunction of the equations."""
-    return conj(atom(p, Relation.EQ) for p in polys)
-
-
 def describe(polys: Sequence[Poly]) -> str:
     """The equations for the record."""
     shown = [format_poly(p) for p in polys[:3]]

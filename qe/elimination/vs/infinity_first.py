@@ -78,10 +78,11 @@ def far_first(variable: str, body: Formula, *, budget: Budget) -> FarFirst | Non
     cases = [atom(lead, relation) for relation in (Relation.GT, Relation.LT, Relation.EQ)]
     parts: list[Nested] = []
     for case in cases:
-        parts.insert(0, _prepared(exists([variable], conj((rest_of_body, case))), budget))
-        if case is not cases[-1] and parts[0].answer != FALSE:
+        block, log = exists([variable], conj((rest_of_body, case))), RunLog()
+        rest = prepare(block, budget=budget, log=log).formula
+        parts.insert(0, Nested(block, tuple(log.steps()), rest))
+        if case is not cases[-1] and rest != FALSE:
             return None
-    rest = parts[0].answer
     if _degrees(rest, variable) >= _degrees(body, variable):
         return None  # a leading coefficient that is a product may be zero without the degree falling anywhere
     return FarFirst(far, rest, tuple(reversed(cases)), (solutions, *parts))
@@ -91,9 +92,3 @@ def _degrees(formula: Formula, variable: str) -> int:
     """The sum of the degrees above 2 in a variable."""
     degrees = (p.degree(p.ring.index[variable]) for p in polynomials(formula) if variable in p.ring.index)
     return sum(degree for degree in degrees if degree > 2)
-
-
-def _prepared(block: Formula, budget: Budget) -> Nested:
-    log = RunLog()
-    answer = prepare(block, budget=budget, log=log).formula
-    return Nested(block, tuple(log.steps()), answer)

@@ -20,7 +20,9 @@ class ParametricForms:
         self.case, self.ring = case, case.where.ring
         self._place = {e: k for k, e in enumerate(case.monomials)}
         one, zero = self.ring.constant(1), self.ring.constant(0)
-        columns = [[self._column(e, k) for e in case.monomials] for k in range(case.size)]
+        columns = [
+            [case.remainder({(*e[:k], e[k] + 1, *e[k + 1 :]): one}) for e in case.monomials] for k in range(case.size)
+        ]
         self.denominator = one
         for scale, _ in (c for row in columns for c in row):
             self.denominator = self.denominator * scale.exact_divide(self.denominator.gcd(scale))
@@ -35,9 +37,6 @@ class ParametricForms:
         size = len(case.monomials)
         unit = [[one if i == j else zero for j in range(size)] for i in range(size)]
         self._products: dict[Exponents, Matrix] = {(0,) * case.size: unit}
-
-    def _column(self, e: Exponents, k: int) -> tuple[Poly, Terms]:
-        return self.case.remainder({(*e[:k], e[k] + 1, *e[k + 1 :]): self.ring.constant(1)})
 
     def _times(self, a: Matrix, b: Matrix) -> Matrix:
         self.case.where.tick()
