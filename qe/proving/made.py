@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
-from fractions import Fraction
 
 from qe.errors import CertificateRejected
 from qe.exact.ring import Poly, Ring
@@ -223,11 +222,6 @@ def value(equation: Atom, name: str) -> Json:
     """An equation for a variable with a number as coefficient, and the sign of that, as the kernel wants them."""
     lead = equation.poly.leading(equation.poly.ring.index[name])
     return [name, poly_to_text(equation.poly), 1 if lead.constant_value() > 0 else -1]
-
-
-def at_number(formula: Formula, x: int, value: Fraction | int) -> Formula:
-    """A formula without root atoms, with a number for variable ``x``."""
-    return map_atoms(formula, lambda a: atom(a.poly.at_rational(x, value), a.relation))
 
 
 def equal(one: Poly, other: Poly) -> Atom:

@@ -14,17 +14,15 @@ from itertools import permutations
 from math import inf, lcm, prod
 
 from qe.exact.ring import Poly
-from qe.formula.syntax import FALSE, Atom, Exists, Formula, Relation
+from qe.formula.syntax import FALSE, Atom, Exists, Formula
 from qe.formula.traverse import conjuncts
 from qe.kernel.limits import check_value
 from qe.kernel.step import Claim, only
 from qe.proof.entry import Entry, Json
 from qe.proving.lemma_list import Lemmas, Term
 from qe.proving.made import Made
+from qe.rules.ranges import Number, at_most_zero, power_range, times
 from qe.simplifier.facts import factor_list
-
-Number = Fraction | float
-"""A rational number, or an infinity."""
 
 Ends = tuple[Number, Number]
 Powers = tuple[tuple[Poly, int], ...]
@@ -60,10 +58,7 @@ def _at_most_zero(parts: tuple[object, ...], entry: Entry) -> Iterator[Poly]:
     part = parts[k] if k < len(parts) else None
     if not isinstance(part, Atom):
         raise entry.fail("a comparison expected")
-    if part.relation in (Relation.LT, Relation.LE, Relation.EQ):
-        yield part.poly
-    if part.relation in (Relation.GT, Relation.GE, Relation.EQ):
-        yield -part.poly
+    yield from at_most_zero(part)
 
 
 @dataclass(slots=True)
@@ -126,7 +121,7 @@ class _Ranges:
             for end in self.ends.get(i, ()):
                 check_value(ring.gen(i) ** e, i, end if isinstance(end, Fraction) else Fraction(0))
             one = ((ring.gen(i), e),)
-            ends = _powers(self.ends.get(i, EVERYTHING), e)
+            ends = power_range(*self.ends.get(i, EVERYTHING), e)
             self.about(ring.gen(i))
             for end in ends:
                 if isinstance(end, Fraction):
@@ -137,7 +132,7 @@ class _Ranges:
 
     def joined(self, p: Powers, of_p: Ends, x: Powers, of_x: Ends) -> Ends:
         """The range of a product."""
-        values = [_times(u, v) for u in of_p for v in of_x]
+        values = [times(u, v) for u in of_p for v in of_x]
         for end, side in ((min(values), 1), (max(values), -1)):
             if isinstance(end, Fraction):
                 self._least(p, of_p, x, of_x, end, side)
@@ -184,19 +179,3 @@ def _less(powers: Powers, end: Fraction) -> tuple[Poly, int]:
     """The product of powers less a number, times the denominator of that, and the denominator."""
     whole = prod((poly**e for poly, e in powers), start=powers[0][0].ring.constant(1))
     return whole * end.denominator - end.numerator, end.denominator
-
-
-def _powers(ends: Ends, k: int) -> Ends:
-    """The range of x^k."""
-    low, high = (end**k if isinstance(end, Fraction) else end if k % 2 else inf for end in ends)
-    if k % 2:
-        return low, high
-    return (Fraction(0) if ends[0] <= 0 <= ends[1] else min(low, high)), max(low, high)
-
-
-def _times(u: Number, v: Number) -> Number:
-    if u == 0 or v == 0:
-        return Fraction(0)  # the other factor is some real number, however large
-    if isinstance(u, Fraction) and isinstance(v, Fraction):
-        return u * v
-    return inf if (u > 0) == (v > 0) else -inf

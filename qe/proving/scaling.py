@@ -17,7 +17,7 @@ from qe.kernel.step import Claim, Context, only
 from qe.kernel.terms import Quotient
 from qe.proof.entry import Entry
 from qe.proof.step import Place
-from qe.proving.made import Made, at_number, solved
+from qe.proving.made import Made, solved
 from qe.proving.shifts import lower
 
 _SIDE = {1: Relation.GT, 0: Relation.EQ, -1: Relation.LT}
@@ -35,7 +35,7 @@ def scaled(made: Made, goal: Formula) -> None:
     kept = [case for case in cases if case[0] in {entry.integer(-1) for entry in values.items()}]
     made.simplified(block, disj(case for _, case in kept))
     for s, case in kept:
-        after, side = exists(rest, at_number(block.body, x, s)), s
+        after, side = exists(rest, made.put(block.body, {name: ring.constant(s)})), s
         if made.current == TRUE or case not in disjuncts(made.current):  # another case has settled it
             continue
         if s == 0:
@@ -70,13 +70,13 @@ def scaled(made: Made, goal: Formula) -> None:
 def translated(made: Made, goal: Formula) -> None:
     """A variable at 0, the others moved along; those bound inside first."""
     variable, weights = only(made.claim, "variable", "weights")
-    (block, name, x), ring = made.claim.variable(variable), made.ring
+    (block, name, _), ring = made.claim.variable(variable), made.ring
     others = moves(weights, name, made.claim)
     there = {v: along(ring, v, by, name) for v, by in others.items()}
     back = {v: along(ring, v, -by, name) for v, by in others.items()}
     moved = moved_inside(made, block, (), there, back, (), start=True)
     rest = [v for v in block.variables if v != name]
-    after = exists(rest, at_number(block.body, x, 0))
+    after = exists(rest, made.put(block.body, {name: ring.constant(0)}))
     outer = {v: q for v, q in back.items() if v in rest}
     made.terms(moved, after, {name: (ring.constant(0), ring.constant(1))}, outer, used=())
 

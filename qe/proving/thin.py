@@ -14,7 +14,7 @@ from qe.kernel.step import Claim, Limits, only
 from qe.kernel.terms import Quotient
 from qe.proof.entry import Entry, Json
 from qe.proving.linear import term
-from qe.proving.made import Made, at_number, by_signs
+from qe.proving.made import Made, by_signs
 
 
 def degenerate_truth_set(made: Made, after: Formula) -> None:
@@ -24,9 +24,10 @@ def degenerate_truth_set(made: Made, after: Formula) -> None:
     block, name, ring = normal(claim.before), variable.text(), claim.ring
     if not isinstance(block, ForAll) or block.variables != (name,) or not block.body.is_quantifier_free:
         raise variable.fail("expected the one variable of a universal block")
-    y, numbers = ring.index[name], [entry.rational() for entry in values.items()]
+    numbers = [entry.rational() for entry in values.items()]
     assert isinstance(claim.before, ForAll)
-    instances = {v: at_number(claim.before.body, y, v) for v in numbers}  # as the steps begin
+    places = {v: (ring.constant(v.numerator), ring.constant(v.denominator)) for v in numbers}
+    instances = {v: made.put(claim.before.body, {name: place}) for v, place in places.items()}  # as the steps begin
     cases: list[Formula] = [TRUE]
     made.moved(made.current, Not(block))  # both sides as they stand, though the block is universal
     if equation.value is not None:

@@ -19,7 +19,7 @@ from qe.kernel.step import Claim, only
 from qe.kernel.terms import Quotient, at_terms
 from qe.proof.entry import Entry
 from qe.proving.lemma_list import EMPTY, Term, identities
-from qe.proving.made import Made, at_number
+from qe.proving.made import Made
 
 MOST = 24
 """Powers of the length that are tried."""
@@ -80,7 +80,7 @@ class _Turn:
         made.moved(middle, whole)
         cases = [exists(names, conj((atom(r, rel), length, block.body))) for rel in (Relation.GT, Relation.EQ)]
         made.signs(whole, disj(cases))
-        flat, rest = at_number(block.body, self.v, 0), self.rest(block, made)
+        flat, rest = made.put(block.body, {ring.names[self.v]: ring.constant(0)}), self.rest(block, made)
         sides = [exists(rest, conj((atom(u, rel), flat))) for rel in (Relation.GT, Relation.EQ)]
         one, zero = ring.constant(1), ring.constant(0)
         origin, v_name = {ring.names[self.v]: (zero, one)}, ring.names[self.v]

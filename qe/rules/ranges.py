@@ -14,6 +14,8 @@ from dataclasses import dataclass, field
 from fractions import Fraction
 from math import inf, isfinite, isinf
 
+from flint import fmpz
+
 from qe.exact.ring import Poly, SparseTerm
 from qe.formula.syntax import Atom, Formula, Relation
 from qe.formula.traverse import conjuncts
@@ -46,7 +48,7 @@ def excluded_by_ranges(variables: tuple[str, ...], body: Formula, context: Block
     conditions = [
         _Condition(k, p, a.relation, p.sparse_terms(), frozenset(a.free))
         for k, a in inequalities
-        for p in _at_most_zero(a)
+        for p in at_most_zero(a)
     ]
     if not _may_fail(conditions):
         return None
@@ -58,7 +60,7 @@ def excluded_by_ranges(variables: tuple[str, ...], body: Formula, context: Block
     return Found(StepKind.RANGES, str(parts[failing]), NEVER, {"bounds": bounds, "fails": failing})
 
 
-def _at_most_zero(a: Atom) -> Iterator[Poly]:
+def at_most_zero(a: Atom) -> Iterator[Poly]:
     """The polynomials that the comparison says are at most 0."""
     if a.relation in _UP:
         yield a.poly
@@ -131,12 +133,8 @@ class _Search:
         low: Number = self.number(c)
         high: Number = low
         for i, k in powers:
-            a, b = self.low.get(i, -inf), self.high.get(i, inf)
-            ends = [_power(a, k), _power(b, k)]
-            if k % 2 == 0 and a < 0 < b:
-                ends.append(self.number(0))
-            ends = [min(ends), max(ends)]
-            products = [_times(u, v) for u in ((low,) if low is high else (low, high)) for v in ends]
+            ends = power_range(self.low.get(i, -inf), self.high.get(i, inf), k)
+            products = [times(u, v) for u in ((low,) if low is high else (low, high)) for v in ends]
             low, high = min(products), max(products)
         return low
 
@@ -196,11 +194,15 @@ def _sum(values: Sequence[Number], zero: Number) -> Number:
     return -inf if -inf in values else sum(values, zero)
 
 
-def _power(a: Number, k: int) -> Number:
-    return (a if k % 2 else inf) if isinstance(a, float) and isinf(a) else a**k
+def power_range(a: Number, b: Number, k: int) -> tuple[Number, Number]:
+    """The least and the greatest value, perhaps infinite, of x^k for x from a to b."""
+    ends = [(end if k % 2 else inf) if isinstance(end, float) and isinf(end) else end**k for end in (a, b)]
+    if k % 2 == 0 and a < 0 < b:
+        ends.append(Fraction(0))
+    return min(ends), max(ends)
 
 
-def _times(a: Number, b: Number) -> Number:
+def times(a: Number, b: Number) -> Number:
     """The product, where zero times anything is zero."""
     if not a or not b:
         return a if not a else b

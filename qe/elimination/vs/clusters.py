@@ -47,5 +47,5 @@ def _depends(formula: Formula, x: int, e: CubicRoot) -> bool:
         case And(args) | Or(args):
             return any(_depends(a, x, e) for a in args)
         case Atom(poly, _):
-            return bool(poly.degree(x)) and any(remainder(poly, x, e)[0][1:])
+            return bool(poly.degree(x)) and any(remainder(poly, x, e.coefficients)[0][1:])
     return False

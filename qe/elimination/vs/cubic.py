@@ -23,7 +23,7 @@ Tests prove the table by decomposition.
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from enum import Enum
 
 from qe.elimination.vs.points import SOME, CubicRoot
@@ -60,7 +60,7 @@ condition on the slopes holds, or u <= 0 and the second. It is always at most th
 def at_cubic(f: Poly, x: int, relation: Relation, e: CubicRoot, sign: int | None, atom: MakeAtom) -> Formula:
     """``f relation 0`` at the root, where ``e`` is real; ``sign``: of the leading coefficient, if it is known."""
     _, c, b, a = e.coefficients
-    g, odd = remainder(f, x, e)
+    g, odd = remainder(f, x, e.coefficients)
     if odd:
         g = [p * (a if sign is None else sign) for p in g]
     w, v, u = g
@@ -75,20 +75,19 @@ def at_cubic(f: Poly, x: int, relation: Relation, e: CubicRoot, sign: int | None
     return Ranked(e, u, v, w, atom).compare(relation)
 
 
-def remainder(f: Poly, x: int, e: CubicRoot) -> tuple[list[Poly], bool]:
-    """The coefficients of a^k * f modulo the cubic, from degree 0 on, and whether k is odd."""
-    d, c, b, a = e.coefficients
-    parts = list(f.coefficients(x))
-    odd = False
-    while len(parts) > 3:
+def remainder(f: Poly, x: int, divisor: Sequence[Poly]) -> tuple[list[Poly], bool]:
+    """The coefficients of a^k * f modulo a polynomial with leading coefficient a, all from degree 0 on, and whether k
+    is odd."""
+    *below, a = divisor
+    parts, odd = list(f.coefficients(x)), False
+    while len(parts) > len(below):
         lead = parts.pop()
-        if not lead:
-            continue
-        parts = [a * p for p in parts]
-        for k, lower in ((1, b), (2, c), (3, d)):
-            parts[-k] = parts[-k] - lead * lower
-        odd = not odd
-    return parts + [f.ring.constant(0)] * (3 - len(parts)), odd
+        if lead:
+            parts = [a * p for p in parts]
+            for k, c in enumerate(reversed(below), 1):
+                parts[-k] = parts[-k] - lead * c
+            odd = not odd
+    return parts + [f.ring.constant(0)] * (len(below) - len(parts)), odd
 
 
 def symmetric(e: CubicRoot, u: Poly, v: Poly, w: Poly) -> Three:

@@ -7,7 +7,7 @@ at a root plus or minus every sufficiently small positive number, or at every su
 
 from __future__ import annotations
 
-from qe.elimination.vs.cubic import at_cubic
+from qe.elimination.vs.cubic import at_cubic, remainder
 from qe.elimination.vs.points import CubicRoot, Infinity, LinearRoot, QuadraticRoot, SymbolicPoint
 from qe.elimination.vs.tables import root_condition
 from qe.exact.ring import Poly
@@ -112,27 +112,12 @@ class Substitution:
         With w = a^k*f = u*x + v (mod g): 2*a*w(e) = A + B*sqrt(D), A = 2*a*v - u*b, B = branch*u, and
         A^2 - B^2*D = 4*a*R with R = a*v^2 - b*u*v + c*u^2, the resultant of g and u*x + v.
         """
-        u, v, k = _remainder(f, self.x, e)
         a, b, c = e.a, e.b, e.c
+        (v, u), odd = remainder(f, self.x, (c, b, a))
         first, second = 2 * (a * v) - u * b, u if e.branch > 0 else -u
         norm = a * (v * v) - b * (u * v) + c * (u * u)
         sign = self.facts.sign(a)
         scale: Poly | int = a if sign is None else sign
-        if k % 2 == 0:  # the factor a^(k+1) has the sign of a
+        if not odd:  # the factor a^(k+1) has the sign of a
             first, second = first * scale, second * scale
         return root_condition(first, second, norm * scale, relation, self._known)
-
-
-def _remainder(f: Poly, x: int, e: QuadraticRoot) -> tuple[Poly, Poly, int]:
-    """(u, v, k) with a^k * f = u*x + v modulo a*x^2 + b*x + c."""
-    c = list(f.coefficients(x))
-    k = 0
-    while len(c) > 2:
-        lead = c.pop()
-        if not lead:
-            continue
-        c = [e.a * p for p in c]
-        c[-1] = c[-1] - lead * e.b
-        c[-2] = c[-2] - lead * e.c
-        k += 1
-    return c[1], c[0], k

@@ -10,10 +10,10 @@ from qe.exact.algebraic import RealAlgebraic
 from qe.exact.fibre_stack import isolate_over
 from qe.exact.ring import Ring
 from qe.exact.sample import Point
-from qe.formula.build import atom, convert
-from qe.formula.evaluate import truth_under
-from qe.formula.syntax import Atom, Atomic, Formula
-from qe.formula.traverse import map_atoms, polynomials
+from qe.formula.build import convert
+from qe.formula.evaluate import substituted, truth_under
+from qe.formula.syntax import Formula
+from qe.formula.traverse import has_root_atoms, polynomials
 
 Number = Fraction | RealAlgebraic
 Values = Mapping[str, Number]
@@ -27,13 +27,17 @@ def solution(formula: Formula, variable: str, values: Values) -> Number | None:
     Raises ``Unable`` for formulas with root atoms.
     """
     algebraic: dict[str, RealAlgebraic] = {}
+    rational: dict[str, Fraction] = {}
     for name, value in values.items():
         if name == variable:
             continue
         if isinstance(value, RealAlgebraic) and not value.is_rational:
             algebraic[name] = value
         else:
-            formula = _at(formula, name, value if isinstance(value, Fraction) else value.as_fraction())
+            rational[name] = value if isinstance(value, Fraction) else value.as_fraction()
+    if has_root_atoms(formula):
+        raise Unable("no witness for a formula with root atoms")
+    formula = substituted(formula, rational)
     used = [name for name in formula.free if name in algebraic]
     ring = Ring.of((*used, variable))
     line, point = convert(formula, ring), Point.of(ring, [algebraic[name] for name in used])
@@ -46,17 +50,3 @@ def solution(formula: Formula, variable: str, values: Values) -> Number | None:
         if truth_under(line, (signs[position] | fixed).get) is True:
             return stack.sample(position).number(point.depth)
     return None
-
-
-def _at(formula: Formula, name: str, value: Fraction) -> Formula:
-    """The formula with a variable set to a rational number."""
-
-    def change(atomic: Atomic) -> Formula:
-        i = atomic.poly.ring.index.get(name)
-        if not isinstance(atomic, Atom):
-            raise Unable("no witness for a formula with root atoms")
-        if i is None or not atomic.poly.degree(i):
-            return atomic
-        return atom(atomic.poly.at_rational(i, value), atomic.relation)
-
-    return map_atoms(formula, change)

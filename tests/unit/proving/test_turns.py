@@ -5,11 +5,12 @@ from typing import Any
 
 from qe.certify.verify import verify
 from qe.exact.ring import Ring
+from qe.formula.evaluate import substituted
 from qe.options import Budget, Options
 from qe.proof.certificate import Certificate, written
 from qe.proof.derivation import moved
 from qe.proof.step import Step
-from qe.proving.made import FRESH, at_number
+from qe.proving.made import FRESH
 from qe.proving.prover import Prover
 from tests.tables import each
 from tests.unit.certify.claims import RING, formula
@@ -51,5 +52,5 @@ def test_what_breaks_a_rotation(before: str, after: str, turns: Any, reason: str
 
 
 def test_a_number_for_a_variable() -> None:
-    found = at_number(formula("not (ex y. x + y > 0) or y = 2*x"), RING.index["x"], Fraction(1, 2))
+    found = substituted(formula("not (ex y. x + y > 0) or y = 2*x"), {"x": Fraction(1, 2)})
     assert found == formula("not (ex y. 1 + 2*y > 0) or y = 1")
