@@ -15,7 +15,6 @@ from qe.proving.lemma_list import Term, identities
 from qe.proving.made import Made
 
 Images = Mapping[str, Poly]
-Terms = Mapping[int, Quotient]
 
 
 def mirrored(made: Made, after: Formula) -> None:

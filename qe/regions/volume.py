@@ -15,7 +15,6 @@ from fractions import Fraction
 
 from qe.decomposition.pieces import Piece, RootFunction
 from qe.errors import BudgetExceeded, Unable
-from qe.exact.algebraic import RealAlgebraic
 from qe.exact.balls import ends, precision
 from qe.exact.enclosure import Jet, Sides, box_sides, constant, root_jet, smooth_side
 from qe.exact.nearby import rational_between
@@ -146,7 +145,8 @@ def _height(pieces: Sequence[Piece]) -> int:
 def _recentred(piece: Piece) -> Piece:
     """The piece moved so that its sample is near the origin: far from it, sizes are lost in the coordinates."""
     bits = FAR + _height([piece])
-    origin = [_rational(piece.sample[r.variable], bits) for r in piece.ranges]
+    sample = [piece.sample[r.variable] for r in piece.ranges]
+    origin = [v if isinstance(v, Fraction) else rational_between(*rational_ends(v, bits)) for v in sample]
 
     def moved(root: RootFunction | None) -> RootFunction | None:
         if root is None:
@@ -158,14 +158,6 @@ def _recentred(piece: Piece) -> Piece:
         return RootFunction(at_steps(root.poly, steps), root.k, value)
 
     return replace(piece, ranges=tuple(replace(r, lower=moved(r.lower), upper=moved(r.upper)) for r in piece.ranges))
-
-
-def _rational(value: object, bits: int) -> Fraction:
-    """The number itself, or a rational one close to it."""
-    if isinstance(value, Fraction):
-        return value
-    assert isinstance(value, RealAlgebraic)
-    return rational_between(*value.interval(bits))
 
 
 def _end(root: RootFunction | None, at: dict[int, Jet], sides: Sides) -> Jet | None:
