@@ -30,9 +30,13 @@ class TooMuch(Exception):
 
 
 class Bounds:
-    """The bounds of variables, as they come and go; ``reasons`` of a conflict are those given with the bounds."""
+    """The bounds of variables, as they come and go; ``reasons`` of a conflict are those given with the bounds.
+
+    ``stuck``: the contradiction that ``conflict`` found last; none where there was none.
+    """
 
     def __init__(self) -> None:
+        self.stuck: list[Term] = []
         self.lower: dict[int, Bound] = {}
         self.upper: dict[int, Bound] = {}
         self._changed: list[tuple[dict[int, Bound], int, Bound | None]] = []
@@ -71,7 +75,7 @@ class Bounds:
         self._rebound(bounds, x)
         return None
 
-    def contradicted(self, weights: Mapping[int, Fraction | int]) -> list[Term]:
+    def contradicted(self, weights: Mapping[int, fmpq | int]) -> list[Term]:
         """The bounds that multiples of the variables contradict which add up to zero; none where they do not.
 
         THEOREM (Farkas 1902, Motzkin 1936). The multiples, bounded above where they are positive and below where they
@@ -84,10 +88,15 @@ class Bounds:
             if known is None and w:
                 return []
             if known is not None and w:
-                (a, b), c = known[0], fmpq(w.numerator, w.denominator)
+                (a, b), c = known[0], fmpq(w)
                 total = total[0] + c * a, total[1] + c * b
                 terms.append((x, w > 0, c, *known))
         return terms if total < (_ZERO, _ZERO) else []
+
+    def weakened(self, offered: Offered) -> set[Hashable]:
+        """After a conflict: reasons that contradict each other as well, each bound exchanged for the first of those
+        ``offered`` (of a variable, upper ones or lower ones: bound, strict, reason) with which the sum still does."""
+        return weakest(self.stuck, offered)
 
     def _rebound(self, bounds: dict[int, Bound], x: int) -> None:
         """Do what a changed bound asks for."""
@@ -102,7 +111,6 @@ class LinearBounds(Bounds):
         self.rows: dict[int, dict[int, fmpq]] = {}
         self.using: list[set[int]] = []
         self.values: list[Value] = []
-        self.stuck: tuple[int, bool] | None = None
         self.work = 0
 
     def variable(self) -> int:
@@ -132,7 +140,7 @@ class LinearBounds(Bounds):
         self.lower.clear()
         self.upper.clear()
         self._changed.clear()
-        self.stuck = None
+        self.stuck = []
 
     def free(self, x: int) -> None:
         """No bounds on a variable from now on; what ``mark`` knew of them is lost."""
@@ -160,7 +168,7 @@ class LinearBounds(Bounds):
         No reason can be left out of them as long as the row stands. ``check`` is called between pivots; it is
         always ``now``. Raises ``TooMuch``.
         """
-        pivots, self.stuck = 0, None
+        pivots, self.stuck = 0, []
         while True:
             check()
             if self.most is not None and self.work > self.most:
@@ -172,26 +180,18 @@ class LinearBounds(Bounds):
             row = self.rows[x]
             open_ones = [y for y, c in row.items() if self._may_move(y, up == (c > 0))]
             if not open_ones:
-                self.stuck = x, up
-                return {(self.upper if above else self.lower)[y][1] for y, above, _ in self._contradiction(x, up)}
+                sign = _ONE if up else -_ONE
+                self.stuck = self.contradicted({x: -sign} | {y: sign * c for y, c in row.items()})
+                return {reason for *_, reason in self.stuck}
             shortest = min(open_ones, key=lambda y: (len(self.using[y]), y))
             self._pivot(x, shortest if pivots < _GREEDY else min(open_ones), wanted)
             pivots += 1
 
-    def weakened(self, offered: Offered) -> set[Hashable]:
-        """After a conflict on a row: reasons that contradict each other as well, each bound exchanged for the first of
-        those ``offered`` (of a variable, upper ones or lower ones: bound, strict, reason) with which the row still
-        contradicts itself."""
-        assert self.stuck is not None
-        known = self._contradiction(*self.stuck)
-        return weakest([(y, up, c, *(self.upper if up else self.lower)[y]) for y, up, c in known], offered)
-
     def contradiction(self) -> list[tuple[Hashable, Fraction]]:
         """After a conflict on a row: the reasons, each with the factor of the variable that it bounds; these multiples
         of the variables add up to zero, and those of their bounds to a contradiction."""
-        assert self.stuck is not None
-        terms = self._contradiction(*self.stuck)
-        return [((self.upper if up else self.lower)[y][1], Fraction(int(c.p), int(c.q))) for y, up, c in terms]
+        assert self.stuck
+        return [(reason, Fraction(int(c.p), int(c.q))) for _, _, c, _, reason in self.stuck]
 
     def side(self, x: int, bound: Fraction) -> int:
         """The sign of x - bound for the present value of x."""
@@ -210,12 +210,6 @@ class LinearBounds(Bounds):
         return [Fraction(int(v.p), int(v.q)) for v in moved]
 
     # --- steps -------------------------------------------------------------------------------------
-    def _contradiction(self, x: int, up: bool) -> list[tuple[int, bool, fmpq]]:
-        """The bounds that contradict each other on the row of x: variables, whether it is the upper bound, and the
-        coefficient (negative for lower bounds)."""
-        sign = _ONE if up else -_ONE
-        return [(x, not up, -sign), *((y, up == (c > 0), sign * c) for y, c in self.rows[x].items())]
-
     def _may_move(self, y: int, up: bool) -> bool:
         if up:
             return y not in self.upper or self.values[y] < self.upper[y][0]

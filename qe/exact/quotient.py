@@ -14,7 +14,7 @@ from functools import cached_property
 from itertools import combinations
 from operator import le
 
-from flint import fmpq, fmpq_mat, fmpq_poly
+from flint import fmpq, fmpq_mat
 
 from qe.errors import InternalError, Unable
 from qe.exact.groebner import Basis
@@ -179,10 +179,6 @@ class Quotient:
     def distinct(self) -> int:
         """The number of distinct complex zeros."""
         return int(self.trace_form.rank()) if self.size else 0
-
-    def characteristic(self, poly: Poly) -> fmpq_poly:
-        """The characteristic polynomial of the multiplication: its roots are the values at the zeros."""
-        return self.matrix(poly).charpoly()
 
     def zeros(self) -> list[Zero]:
         """All real zeros, exactly; their number is checked against the signature of the trace form."""

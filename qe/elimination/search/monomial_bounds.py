@@ -39,7 +39,7 @@ class MonomialBounds:
     def weakened(self, conflict: set[Hashable]) -> list[Atom]:
         """Atoms that contradict each other as those do that ``conflict`` found last, as weak as those offered can be:
         x <= 3 for x = 0 where that is enough. They follow from these one by one."""
-        reasons = conflict if self.bounds.stuck is None else self.bounds.weakened(self._offered)
+        reasons = self.bounds.weakened(self._offered) if self.bounds.stuck else conflict
         return [reason for reason in reasons if isinstance(reason, Atom)]
 
     def _offered(self, x: int, above: bool) -> Iterator[tuple[Fraction, bool, Hashable]]:

@@ -14,7 +14,7 @@ from typing import SupportsInt
 from qe.convex.exact_basis import proportions
 from qe.convex.highs import FloatRows, Offers
 from qe.elimination.search.linear_forms import Direction, Monomial
-from qe.exact.linear_bounds import Bound, Bounds, Offered, Term, weakest
+from qe.exact.linear_bounds import Bound, Bounds, Term
 from qe.exact.sparse_solve import solve_sparse, whole_multiples
 
 _APART = 1e-6
@@ -37,7 +37,6 @@ class ProposedBounds(Bounds):
         self.forms: dict[Direction, int] = {}
         self._rows: list[dict[int, int]] = []
         self._floats: FloatRows | None = None
-        self._stuck: list[Term] = []
         self._patience, self._waiting = 1, 0
         self._offered: Offers | None = None
 
@@ -61,16 +60,12 @@ class ProposedBounds(Bounds):
             return None
         before, self._waiting = program.values, 0
         ray = program.contradiction()
-        self._stuck = [] if ray is None else self._exact({i: w for i, w in ray.items() if abs(w) > _TINY})
-        if self._stuck:
+        self.stuck = [] if ray is None else self._exact({i: w for i, w in ray.items() if abs(w) > _TINY})
+        if self.stuck:
             self._patience = max(1, self._patience // 4)
         elif ray is not None or program.values is not before:  # what is not believed once comes again
             self._patience = min(2 * self._patience, _PATIENCE)
-        return {reason for *_, reason in self._stuck} or None
-
-    def weakened(self, offered: Offered) -> set[Hashable]:
-        """Reasons as weak as may be, after a conflict."""
-        return weakest(self._stuck, offered)
+        return {reason for *_, reason in self.stuck} or None
 
     def side(self, x: int, bound: Fraction) -> int:
         """The sign of x - bound at the present point, in floats."""

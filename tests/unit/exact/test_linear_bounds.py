@@ -64,7 +64,7 @@ def test_points_keep_bounds_and_reasons_contradict(questions: list[list[Conditio
             assert all(holds(c, [values[x] for x in asked.columns]) for c in conditions)
         else:
             assert not possible([conditions[k] for k in found if isinstance(k, int)])
-            if asked.bounds.stuck is not None:
+            if asked.bounds.stuck:
                 check_weakened(asked, conditions, found)
         for form in [*asked.forms][::2]:  # what is known of the others stays
             x = asked.forms.pop(form)
@@ -101,8 +101,8 @@ def test_strict_bounds_meet_at_no_point() -> None:
 
 def test_a_conflict_of_two_bounds_is_no_conflict_on_the_row_of_an_earlier_question() -> None:
     asked = Asked()
-    assert asked.ask([((0, 0, 0), 0, "<")]) == {0} and asked.bounds.stuck is not None
-    assert asked.ask([((0, 0, 1), 0, "<"), ((0, 0, 1), 0, ">")]) == {0, 1} and asked.bounds.stuck is None
+    assert asked.ask([((0, 0, 0), 0, "<")]) == {0} and asked.bounds.stuck
+    assert asked.ask([((0, 0, 1), 0, "<"), ((0, 0, 1), 0, ">")]) == {0, 1} and not asked.bounds.stuck
 
 
 def test_huge_and_close_numbers() -> None:
