@@ -18,6 +18,7 @@ from fractions import Fraction
 from itertools import chain, combinations, islice
 from math import lcm
 
+from qe.elimination.critical.forms import ParametricForm, parametric_form
 from qe.elimination.protocol import Context, Outcome
 from qe.errors import InputError
 from qe.exact.quadratic_form import solve_linear
@@ -155,24 +156,18 @@ def _instantiated(
 
 
 def substituted(formula: Formula, terms: Mapping[str, Term]) -> Formula:
-    """The formula with variables replaced by polynomials; every atom is multiplied by a positive number."""
+    """The formula with variables replaced by polynomials, one after the other; every atom is multiplied by a positive
+    number."""
 
     def change(atomic: Atomic) -> Formula:
         if not isinstance(atomic, Atom):
             return atomic
-        return atom(_composed(atomic.poly, terms), atomic.relation)
+        poly: Poly = atomic.poly
+        for name, term in terms.items():
+            poly = poly.at_quotient(poly.ring.index[name], term.numerator, poly.ring.constant(term.denominator))
+        return atom(poly, atomic.relation)
 
     return map_atoms(formula, change) if terms else formula
-
-
-def _composed(poly: Poly, terms: Mapping[str, Term]) -> Poly:
-    """D^d * poly(p, N/D) for the common denominator D and the degree d in the replaced variables."""
-    ring = poly.ring
-    places = {ring.index[name]: term for name, term in terms.items() if poly.degree(ring.index[name])}
-    common = lcm(*(term.denominator for term in places.values()))
-    top = max((sum(e[i] for i in places) for e, _ in poly.terms()), default=0)
-    scaled = ring.from_terms({e: c * common ** (top - sum(e[i] for i in places)) for e, c in poly.terms()})
-    return scaled.compose({i: term.numerator * (common // term.denominator) for i, term in places.items()})
 
 
 # --- the proof --------------------------------------------------------------------------------------------
@@ -267,20 +262,12 @@ def _probes(known: Formula, names: Iterable[str]) -> Iterator[dict[str, Fraction
 
 
 # --- the candidates -----------------------------------------------------------------------------------------
-@dataclass(frozen=True, slots=True)
-class _Slope:
-    """The gradient of a condition g <= 0 with respect to y: ``hessian`` * y + ``rest``."""
-
-    hessian: tuple[tuple[int, ...], ...]
-    rest: tuple[Poly, ...]
-
-
 def _candidates(block: Exists) -> Iterator[dict[str, Term]]:
     """The minimisers of the sums over subsets of the conditions, each once."""
     ring = block.body.ring
     assert ring is not None
     places = [ring.index[name] for name in block.variables]
-    slopes = [s for a in dict.fromkeys(atoms(block.body)) if (s := _slope(a, places)) is not None]
+    slopes = [s for a in dict.fromkeys(atoms(block.body)) if (s := _form(a, places)) is not None]
     seen = set()
     sizes = range(1, len(slopes) + 1)
     for chosen in islice(chain.from_iterable(combinations(slopes, k) for k in sizes), MOST):
@@ -290,25 +277,20 @@ def _candidates(block: Exists) -> Iterator[dict[str, Term]]:
             yield dict(zip(block.variables, centre, strict=True))
 
 
-def _slope(condition: Atomic, places: Sequence[int]) -> _Slope | None:
-    """None for atoms that are no weak or strict inequality of constant second derivatives in y."""
+def _form(condition: Atomic, places: Sequence[int]) -> ParametricForm | None:
+    """The form g of a condition g <= 0; None for atoms that are no weak or strict inequality of constant second
+    derivatives in y."""
     if not isinstance(condition, Atom) or condition.relation in (Relation.EQ, Relation.NE):
         return None
     g = condition.poly if condition.relation in (Relation.LE, Relation.LT) else -condition.poly
-    gradient = [g.derivative(i) for i in places]
-    second = [[slope.derivative(j) for j in places] for slope in gradient]
-    if not all(entry.is_constant for row in second for entry in row):
-        return None
-    hessian = tuple(tuple(entry.constant_value() for entry in row) for row in second)
-    rest = tuple(slope.compose({i: g.ring.constant(0) for i in places}) for slope in gradient)
-    return _Slope(hessian, rest)
+    return parametric_form(g, places)
 
 
-def _centre(chosen: Sequence[_Slope]) -> tuple[Term, ...] | None:
+def _centre(chosen: Sequence[ParametricForm]) -> tuple[Term, ...] | None:
     """The point where the slopes add up to zero, if there is exactly one."""
-    size = len(chosen[0].rest)
-    total = [[Fraction(sum(s.hessian[i][j] for s in chosen)) for j in range(size)] for i in range(size)]
-    rest = [sum((s.rest[i] for s in chosen[1:]), chosen[0].rest[i]) for i in range(size)]
+    size = len(chosen[0].gradient)
+    total = [[sum((form.hessian[i][j] for form in chosen), Fraction(0)) for j in range(size)] for i in range(size)]
+    rest = [sum((form.gradient[i] for form in chosen[1:]), chosen[0].gradient[i]) for i in range(size)]
     columns = []
     for k in range(size):
         solved = solve_linear(total, [Fraction(int(i == k)) for i in range(size)], size)

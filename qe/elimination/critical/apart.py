@@ -16,12 +16,12 @@ from fractions import Fraction
 from itertools import product
 from math import prod
 
-from qe.exact.ring import Poly
+from qe.elimination import witness
 from qe.exact.sparse_solve import whole_multiples
-from qe.formula.build import atom, conj
+from qe.formula.build import conj
 from qe.formula.evaluate import substituted
-from qe.formula.syntax import Atomic, Formula
-from qe.formula.traverse import conjuncts, disjuncts, has_root_atoms, map_atoms
+from qe.formula.syntax import Formula
+from qe.formula.traverse import conjuncts, disjuncts, has_root_atoms
 from qe.rules.nullspace import constant_direction
 
 MOST_PIECES = 4
@@ -74,14 +74,7 @@ def _piece(whole: Formula, variables: frozenset[str]) -> Piece:
 
 def _moved(formula: Formula, name: str, direction: Direction) -> Formula:
     """Every other parameter q_j of the direction becomes (w_i*q_j - w_j*p_i)/w_i, where w_i > 0."""
-
-    def change(given: Atomic) -> Formula:
-        poly: Poly = given.poly
-        ring = poly.ring
-        for other, w in direction.items():
-            if other != name and poly.degree(ring.index[other]):
-                top = ring.var(other) * direction[name] - ring.var(name) * w
-                poly = poly.at_quotient(ring.index[other], top, ring.constant(direction[name]))
-        return atom(poly, given.relation)
-
-    return map_atoms(formula, change)
+    if (ring := formula.ring) is None:
+        return formula
+    others = {v: ring.var(v) * direction[name] - ring.var(name) * w for v, w in direction.items() if v != name}
+    return witness.substituted(formula, {v: witness.Term(top, direction[name]) for v, top in others.items()})

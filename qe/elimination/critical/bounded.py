@@ -63,7 +63,7 @@ def _definite_sum(system: System, rest: list[int]) -> bool:
     place = [i - system.free for i in rest]
     hessians = []
     for condition in system.conditions:
-        form = parametric_form(condition.poly, system.free)
+        form = parametric_form(condition.poly, system.bound)
         if form is not None and is_convex(form.hessian, FormRelation.LE):
             hessians.append(form.hessian)
     if not hessians:

@@ -64,7 +64,7 @@ class Fibres:
         """The conditions as forms if every fibre over every point is convex, else None."""
         forms = []
         for condition in self.system.conditions:
-            form = parametric_form(condition.poly, self.system.free)
+            form = parametric_form(condition.poly, self.system.bound)
             if form is None or not is_convex(form.hessian, condition.relation):
                 return None
             forms.append(form)

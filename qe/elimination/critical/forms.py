@@ -25,12 +25,12 @@ class ParametricForm:
         return Quadratic(self.hessian, gradient, self.constant.evaluate(values))
 
 
-def parametric_form(poly: Poly, free: int) -> ParametricForm | None:
-    """The form of a polynomial whose variables from index ``free`` on are the quantified ones, or None."""
-    size = poly.ring.size - free
+def parametric_form(poly: Poly, variables: Sequence[int]) -> ParametricForm | None:
+    """The form of a polynomial of which these are the quantified variables, or None."""
+    size = len(variables)
     hessian = [[Fraction(0)] * size for _ in range(size)]
     gradient, constant = [poly.ring.constant(0)] * size, poly.ring.constant(0)
-    for exponents, coefficient in poly.collected(range(free, poly.ring.size)).items():
+    for exponents, coefficient in poly.collected(variables).items():
         match [k for k, e in enumerate(exponents) for _ in range(e)]:
             case []:
                 constant = coefficient

@@ -15,7 +15,7 @@ from dataclasses import dataclass, replace
 from qe.elimination.protocol import Context, Outcome
 from qe.elimination.rootsigns.cover import Rows
 from qe.elimination.rootsigns.forms import minors, special
-from qe.elimination.rootsigns.question import Question, product, read
+from qe.elimination.rootsigns.question import Question, read
 from qe.elimination.rootsigns.theory import Name, Place, RootType, Shape, Signs, rows
 from qe.errors import Unable
 from qe.exact.ring import Poly
@@ -118,7 +118,9 @@ def _polynomials(question: Question, shape: Shape, budget: Budget) -> dict[Name,
     if shape.place is not Place.LINE:
         forms["A"] = special(f, (0, 1), budget) if shape.place is Place.RAY else minors(f, question.g, budget)
     if shape.squares:
-        forms["Q"] = minors(f, product(question.g, question.g), budget)
+        g, zero = question.g, f[0].ring.constant(0)
+        inside = ([(i, k - i) for i in range(len(g)) if 0 <= k - i < len(g)] for k in range(2 * len(g) - 1))
+        forms["Q"] = minors(f, [sum((g[i] * g[j] for i, j in pairs), zero) for pairs in inside], budget)
     for name, listed in forms.items():
         named |= {(name, k): p for k, p in enumerate(listed, 1)}
     if shape.invariant:

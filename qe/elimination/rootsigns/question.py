@@ -9,11 +9,11 @@ is no l, and whose coefficient of degree n that at u where there are both.
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from math import lcm
 
 from qe.elimination.rootsigns.theory import REAL, Place, Root, RootType, Shape, count
-from qe.errors import Unable
+from qe.errors import BudgetExceeded, Unable
 from qe.exact.ring import Poly
 from qe.formula.build import atom, conj, exists
 from qe.formula.syntax import TRUE, Atom, Formula, Relation
@@ -31,7 +31,7 @@ class Question:
 
     ``relation`` is one of =, <, <=. ``g``, ``sign``: what else is asked, in the place CONDITION. ``closed``: whether
     y = 0, and whether y = oo, takes part, in the place RAY. ``side``: a condition on the parameters besides.
-    ``change``: numerator and denominator, by coefficients in y, of what the block's variable is; none where that is y.
+    ``change``: numerator and denominator of what the block's variable is, linear in y; none where that is y.
     """
 
     f: tuple[Poly, ...]
@@ -41,7 +41,7 @@ class Question:
     sign: Relation = GT
     closed: tuple[bool, bool] = (False, False)
     side: Formula = TRUE
-    change: tuple[Sequence[Poly], Sequence[Poly]] | None = None
+    change: tuple[Poly, Poly] | None = None
 
     @property
     def degree(self) -> int:
@@ -73,8 +73,9 @@ class Question:
         one = x.ring.constant(1)
         if self.change is None:
             return (x, one), (x, one)
-        (s, t), (b, k) = self.change
-        return (s + t * x, b + k * x), (b * x - s, t - k * x)
+        top, bottom = self.change
+        t, k = (part.derivative(x.level) for part in self.change)
+        return self.change, ((bottom - k * x) * x - (top - t * x), t - k * x)
 
     def degenerate(self, x: int) -> Formula:
         """The question where the leading coefficient is 0."""
@@ -145,55 +146,28 @@ def _on_interval(poly: Poly, relation: Relation, bounds: Sequence[Atom], x: int)
     lower, upper = [e for e in ends if e.lower], [e for e in ends if not e.lower]
     if len(lower) > 1 or len(upper) > 1:
         return None
-    f, one, zero = poly.coefficients(x), poly.ring.constant(1), poly.ring.constant(0)
+    y, one = poly.ring.gen(x), poly.ring.constant(1)
     if not upper or not lower:
         (end,) = ends
-        turn = end.bottom if end.lower else -end.bottom
-        change = (end.top, one * turn), (one * end.bottom, zero)
-        moved = _composed(f, change[0], change[1][:1])
-        return Question(moved, relation, Place.RAY, closed=(end.closed, False), change=change)
+        change = end.top + y * (end.bottom if end.lower else -end.bottom), one * end.bottom
+        return Question(_moved(poly, x, *change), relation, Place.RAY, closed=(end.closed, False), change=change)
     (low,), (high,) = lower, upper
     common = lcm(low.bottom, high.bottom)
     l, u = low.top * (common // low.bottom), high.top * (common // high.bottom)
-    change = (l, u), (one * common, one * common)
-    moved = _composed(f, *change)
-    while not moved[-1] and len(moved) > 1:
-        moved = moved[:-1]
-    question = Question(moved, relation, Place.RAY, closed=(low.closed, high.closed), change=change)
-    side = atom(u - l, GE if low.closed and high.closed else GT) if u - l != zero else None
-    if side is None:
+    change = l + u * y, (one + y) * common
+    moved = _moved(poly, x, *change)
+    if l == u or len(moved) <= poly.degree(x):
         return None
-    return replace(question, side=side) if len(moved) == len(f) else None
+    side = atom(u - l, GE if low.closed and high.closed else GT)
+    return Question(moved, relation, Place.RAY, closed=(low.closed, high.closed), side=side, change=change)
 
 
-def _composed(f: Sequence[Poly], top: Sequence[Poly], bottom: Sequence[Poly]) -> tuple[Poly, ...]:
-    """The coefficients of the sum of f_i * top^i * bottom^(n-i), for linear ``top`` and ``bottom``."""
-    image: tuple[Poly, ...] = (f[-1],)
-    power: tuple[Poly, ...] = (f[-1].ring.constant(1),)
-    for c in reversed(f[:-1]):
-        power = product(power, bottom)
-        image = product(image, top)
-        image = tuple(p + c * q if k < len(power) else p for k, (p, q) in enumerate(_both(image, power)))
-        if sum(p.term_count() for p in image) > MOST_TERMS:
-            raise Unable("a polynomial grows past its limits on an interval")
-    return image
-
-
-def _both(left: tuple[Poly, ...], right: tuple[Poly, ...]) -> list[tuple[Poly, Poly]]:
-    zero = left[0].ring.constant(0)
-    size = max(len(left), len(right))
-    wide = [(*row, *(zero,) * (size - len(row))) for row in (left, right)]
-    return list(zip(*wide, strict=True))
-
-
-def product(left: Sequence[Poly], right: Sequence[Poly]) -> tuple[Poly, ...]:
-    """The coefficients of the product of two polynomials."""
-    zero = left[0].ring.constant(0)
-    total = [zero] * (len(left) + len(right) - 1)
-    for i, p in enumerate(left):
-        for j, q in enumerate(right):
-            total[i + j] = total[i + j] + p * q
-    return tuple(total)
+def _moved(poly: Poly, x: int, top: Poly, bottom: Poly) -> tuple[Poly, ...]:
+    """The coefficients of the sum of f_i * top^i * bottom^(n-i), for a polynomial with the coefficients f_i."""
+    try:
+        return poly.at_quotient(x, top, bottom, most_terms=MOST_TERMS).coefficients(x)
+    except BudgetExceeded:
+        raise Unable("a polynomial grows past its limits on an interval") from None
 
 
 def _value(f: Sequence[Poly], y: Poly) -> Poly:

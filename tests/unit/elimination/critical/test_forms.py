@@ -29,7 +29,7 @@ def quadratics(draw: st.DrawFn) -> Poly:
 
 @given(quadratics(), st.tuples(SMALL, SMALL, SMALL, SMALL))
 def test_the_form_has_the_values_of_the_polynomial(poly: Poly, point: tuple[int, ...]) -> None:
-    form = parametric_form(poly, 2)
+    form = parametric_form(poly, (2, 3))
     assert form is not None
     a, b, *place = map(Fraction, point)
     over = form.at((a, b))
@@ -41,4 +41,4 @@ def test_the_form_has_the_values_of_the_polynomial(poly: Poly, point: tuple[int,
 
 @each(A * X**2, X**3, X**2 * Y, X * Y * B, X**2 * Y**2)
 def test_other_polynomials_have_none(poly: Poly) -> None:
-    assert parametric_form(poly + X + 1, 2) is None
+    assert parametric_form(poly + X + 1, (2, 3)) is None
