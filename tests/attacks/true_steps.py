@@ -117,17 +117,17 @@ def elaborated() -> Iterator[list[TrueStep]]:
 def producing() -> Iterator[set[str]]:
     """The rules of the steps for which provers look for evidence meanwhile."""
     rules: set[str] = set()
-    own, tried = Prover.own, Prover._tried
+    own, named = Prover.own, Prover._named
 
     def noted(prover: Prover, step: Step, context: tuple[Formula, ...]) -> tuple[str, Json] | None:
         rules.add(step.rule)
         return own(prover, step, context)
 
-    def noted_inside(prover: Prover, rule: str, step: Step, *rest: Any) -> Json | None:
+    def noted_inside(prover: Prover, rule: str, step: Step, *rest: Any) -> tuple[str, Json] | None:
         rules.add(step.rule)
-        return tried(prover, rule, step, *rest)
+        return named(prover, rule, step, *rest)
 
-    with patch.object(Prover, "own", noted), patch.object(Prover, "_tried", noted_inside):
+    with patch.object(Prover, "own", noted), patch.object(Prover, "_named", noted_inside):
         yield rules
 
 
@@ -137,7 +137,7 @@ def own_evidence(prover: Prover, step: Step, made: dict[str, Json]) -> Json:
     if made["rule"] != "steps":
         return None
     facts = _facts(made, prover.ring)
-    return _proved_inside(prover, step, prover._plain(proof), facts) if isinstance(proof, Mapping) else {}
+    return _proved_inside(prover, step, prover._json(proof), facts) if isinstance(proof, Mapping) else {}
 
 
 def _proved_inside(prover: Prover, step: Step, plain: Json, facts: tuple[Formula, ...]) -> Json:
