@@ -79,7 +79,7 @@ def bounds(
             if gauss is not None:
                 return _with_gauss(formula, *gauss, x, side, facts, omit, highest)
             ends_of_parts = (bounds(arg, x, side, facts, omit, highest) for arg in args)
-            return _joined(_within(formula, args, k, ends) for k, ends in enumerate(ends_of_parts))
+            return _joined(within(formula, args, k, ends) for k, ends in enumerate(ends_of_parts))
         case Or(args):
             return _joined(bounds(arg, x, side, facts, omit, highest) for arg in args)
     return ()
@@ -102,8 +102,7 @@ def gauss_constituent(formula: Formula, x: int, side: int, facts: Facts, highest
             if best is None:
                 return None
             gauss, k = best
-            inner = _within(formula, args, k, gauss.candidates)
-            return Gauss(inner or (), gauss.degenerate)
+            return Gauss(within(formula, args, k, gauss.candidates) or (), gauss.degenerate)
     return None
 
 
@@ -173,17 +172,17 @@ def _with_gauss(
     Where it degenerates, equations joined by "or" are true for all x. Any other constituent can turn true there, too.
     """
     args = whole.args
-    inner = _within(whole, args, k, gauss.candidates)
+    inner = within(whole, args, k, gauss.candidates)
     if gauss.degenerate == FALSE or inner is None:
         return inner
     kept = [j for j in range(len(args)) if j != k or any(isinstance(a, And) for a in disjuncts(args[k]))]
-    others = _joined(_within(whole, args, j, bounds(args[j], x, side, facts, omit, highest)) for j in kept)
+    others = _joined(within(whole, args, j, bounds(args[j], x, side, facts, omit, highest)) for j in kept)
     if others is None:
         return None
     return (*inner, *(replace(c, guard=conj((gauss.degenerate, c.guard))) for c in others))
 
 
-def _within(
+def within(
     whole: Formula, args: tuple[Formula, ...], k: int, ends: tuple[Candidate, ...] | None
 ) -> tuple[Candidate, ...] | None:
     """Candidates of conjunct k as candidates of the conjunction."""

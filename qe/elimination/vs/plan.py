@@ -12,6 +12,7 @@ from qe.elimination.vs.candidates import (
     gauss_constituent,
     gauss_cost,
     points_cost,
+    within,
 )
 from qe.elimination.vs.clusters import clustered
 from qe.elimination.vs.points import Infinity
@@ -121,10 +122,7 @@ def _with_gauss(problem: _Problem, originals: tuple[Formula, ...], gauss: Gauss,
     """Only the points of the Gauss constituent, the k-th argument; where it vanishes identically, the problem without
     it (``originals``: the arguments before the degree shift)."""
     x, exponent, formula, args, size = problem.x, problem.exponent, problem.formula, problem.args, problem.size
-    rest = (*args[:k], *args[k + 1 :])
-    candidates = tuple(
-        replace(c, formula=formula if c.formula is args[k] else conj((c.formula, *rest))) for c in gauss.candidates
-    )
+    candidates = within(formula, args, k, gauss.candidates) or ()
     cost = gauss_cost(gauss) * size if size > 1 or gauss.degenerate != FALSE else points_cost(candidates) * _ALONE
     if gauss.degenerate == FALSE:
         return Plan(x, exponent, formula, candidates, (), None, FALSE, cost)
