@@ -67,7 +67,9 @@ def _step(task: _Task, block: BlockOrder) -> tuple[list[Segment], list[_Task]]:
     # where the equations hold and not all of the base do, 1 is in the ideal
     beyond = tuple(p for p in base if has_zeros(equal, [*task.nonzero, p])) if set(base) != set(equal) else ()
     if beyond:
-        found.append(Segment(block, equal, task.nonzero, _conditions(beyond, task.nonzero), one, beyond))
+        some = tuple(dict.fromkeys(_bare(p, task.nonzero) for p in beyond))
+        some = () if any(p.is_constant for p in some) else some  # () where always one is not 0
+        found.append(Segment(block, equal, task.nonzero, some, one, beyond))
         base = _simpler(base, task.nonzero, block)
         if not has_zeros(base, task.nonzero):
             return found, []
@@ -112,14 +114,6 @@ def _open(nonzero: Sequence[Poly], equal: Sequence[Poly], block: BlockOrder) -> 
 def _bare(poly: Poly, nonzero: Sequence[Poly]) -> Poly:
     """The product of the irreducible factors that are not in ``nonzero``, each once."""
     return prod((f for f, _ in poly.factors()[1] if f not in nonzero), start=poly.ring.constant(1))
-
-
-def _conditions(polys: Sequence[Poly], nonzero: Sequence[Poly]) -> tuple[Poly, ...]:
-    """Squarefree polynomials, not all zero iff not all of these are, where nothing of ``nonzero`` vanishes; () if that
-    is always so.
-    """
-    parts = [_bare(p, nonzero) for p in polys]
-    return () if any(p.is_constant for p in parts) else tuple(dict.fromkeys(parts))
 
 
 def _minimal(rest: Sequence[Poly], block: BlockOrder) -> tuple[Poly, ...]:

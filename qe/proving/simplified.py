@@ -104,7 +104,9 @@ class Simplified:
     def _by_parts(self, place: Place, formula: Formula, current: Formula) -> tuple[Formula, Formula]:
         """As ``_simpler``, in the order of the simplifier: the comparisons, and each other part under these."""
         if isinstance(formula, Exists | ForAll):
-            return self._within(place, formula, current)
+            nested = isinstance(formula.body, Exists | ForAll)
+            body, current = (self._simpler if nested else self._by_parts)((*place, 0), formula.body, current)
+            return self._dropped(place, formula, body, current)
         kind, tidied = type(formula), set[Formula]()
         while isinstance(formula, And | Or) and type(formula) is kind:
             part = next((f for f in _parts(formula) if f not in tidied and f != formula), None)
@@ -115,12 +117,6 @@ class Simplified:
             if simpler != part:
                 formula = replaced(formula, _at(formula, (), part), part, simpler, (), Entry(None, "place"))[1]
         return formula, current
-
-    def _within(self, place: Place, formula: Exists | ForAll, current: Formula) -> tuple[Formula, Formula]:
-        """As ``_by_parts`` for the body."""
-        nested = isinstance(formula.body, Exists | ForAll)
-        body, current = (self._simpler if nested else self._by_parts)((*place, 0), formula.body, current)
-        return self._dropped(place, formula, body, current)
 
     def _dropped(
         self, place: Place, formula: Exists | ForAll, body: Formula, current: Formula

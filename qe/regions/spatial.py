@@ -92,7 +92,10 @@ class Space:
         }
         parts = connected_parts(own, pairs)
         unclear: list[tuple[set[Place], set[Place]]] = []
-        for near, cell in self._touching(over):
+        closures = frontiers(self.table, 2, self.budget)
+        # cells with cells of the set over them, the first in the closure of the second; simple samples first
+        touching = [(near, cell) for cell in over for near in closures[cell] if near in over]
+        for near, cell in sorted(touching, key=lambda pair: (sum(k % 2 for k in pair[0]), pair)):
             ours = {(*base, t) for base in (near, cell) for t in over[base]}
             if sum(not part.isdisjoint(ours) for part in parts) == 1:
                 continue
@@ -104,12 +107,6 @@ class Space:
             parts = connected_parts(own, pairs)
         open_questions = {(p, q) for left, right in unclear for p in left for q in right}
         return parts if len(connected_parts(own, pairs | open_questions)) == len(parts) else None
-
-    def _touching(self, over: dict[Place, list[int]]) -> list[tuple[Place, Place]]:
-        """Cells B and A of the plane with cells of the set over them, B in the closure of A; simple samples first."""
-        closures = frontiers(self.table, 2, self.budget)
-        pairs = [(near, cell) for cell in over for near in closures[cell] if near in over]
-        return sorted(pairs, key=lambda pair: (sum(k % 2 for k in pair[0]), pair))
 
     def _meeting(self, near: Place, cell: Place, over: dict[Place, list[int]]) -> Iterator[tuple[Place, Place]]:
         """The cells of the set over ``near`` in the closures of those over ``cell``."""

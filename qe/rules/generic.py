@@ -17,7 +17,7 @@ def drop_inequations(variables: tuple[str, ...], body: Formula, context: BlockCo
 
     Lift: a solution of f, moved a little where p happens to vanish on it.
     """
-    block = _indices(variables, body)
+    block = frozenset(map(next(atoms(body)).poly.ring.index.__getitem__, variables))
     removed: list[Atom] = []
     others: list[Formula] = []
     closed: list[Formula] = []
@@ -52,9 +52,3 @@ def _boundary_apart(
     cases = [atom(first.poly, strict), atom(first.poly, Relation.EQ)]
     node = Any(tuple(Pending(variables, conj((case, *rest))) for case in cases))
     return Found(StepKind.BOUNDARY, "weak inequality", node)
-
-
-def _indices(variables: tuple[str, ...], formula: Formula) -> frozenset[int]:
-    """The variables of the block as indices into the ring of the formula."""
-    index = next(atoms(formula)).poly.ring.index
-    return frozenset(index[v] for v in variables)

@@ -170,19 +170,14 @@ def rotations(polys: Sequence[Poly], pairs: Sequence[Pair], watch: Callable[[], 
         images: dict[Pair, Image] = {}
         for pair in dict.fromkeys(pair for skew in moving for pair in skew):
             watch()
-            images[pair] = _turned(p, pair)
+            (i, j), ring = pair, p.ring
+            turned = ring.gen(i) * p.derivative(j) - ring.gen(j) * p.derivative(i)
+            images[pair] = {exponents: Fraction(c) for exponents, c in turned.terms()}
         basis = [skew for skew in basis if skew not in moving]
         basis += [_sum(dict(enumerate(moving)), r) for r in _relations([_sum(images, skew) for skew in moving])]
     columns = sorted(pairs)
     rows = echelon([[skew.get(pair, Fraction(0)) for pair in columns] for skew in basis])[0]
     return [{pair: c for pair, c in zip(columns, row, strict=True) if c} for row in rows]
-
-
-def _turned(p: Poly, pair: Pair) -> Image:
-    """The terms of (x_i * d/dx_j - x_j * d/dx_i) p."""
-    (i, j), ring = pair, p.ring
-    turned = ring.gen(i) * p.derivative(j) - ring.gen(j) * p.derivative(i)
-    return {exponents: Fraction(c) for exponents, c in turned.terms()}
 
 
 def _relations(parts: Sequence[Image]) -> list[Terms[int]]:

@@ -25,8 +25,10 @@ def fix_scale(variables: tuple[str, ...], body: Formula, context: BlockContext) 
     inner = frozenset(bound_variables(body))
     if not is_short(body, _TERMS) or inner & set(body.free) or all(a.poly.total_degree < 2 for a in atoms(body)):
         return None
-    if len(variables) == 1 and not inner and not _are_monomials(variables[0], body):
-        return None
+    if len(variables) == 1 and not inner:
+        polys = [a.poly for a in atoms(body)]
+        if any(any(p.coefficients(p.ring.index[variables[0]])[:-1]) for p in polys):
+            return None  # not each is a power of the variable times what is free of it
     weights = homogeneous_weights(body, frozenset(variables) | inner)
     known = context.facts.extended(conjuncts(body))
     ring = next(atoms(body)).poly.ring
@@ -51,12 +53,6 @@ def fix_scale(variables: tuple[str, ...], body: Formula, context: BlockContext) 
         "values": values,
     }
     return Found(StepKind.SCALING, f"{name} in {sorted(signs)}", Any(nodes), proof)
-
-
-def _are_monomials(name: str, body: Formula) -> bool:
-    """Whether every polynomial is a power of the variable times what is free of it."""
-    polys = [a.poly for a in atoms(body)]
-    return all(not any(p.coefficients(p.ring.index[name])[:-1]) for p in polys)
 
 
 def fix_origin(variables: tuple[str, ...], body: Formula, context: BlockContext) -> Found | None:

@@ -50,11 +50,9 @@ def eliminate_universal(
 
 def _spares_a_convex_set(part: System, budget: Budget) -> bool:
     """Whether the part says: y is in a set D, and g(p, y) > 0 for one polynomial g, convex in p for every y in D."""
-    domain = [c for c in part.conditions if min(c.poly.variables) >= part.free]
-    others = [c for c in part.conditions if c not in domain]
-    if part.guards or len(others) != 1 or others[0].relation is not FormRelation.LT:
+    if (parted := _parted(part)) is None:
         return False
-    g = -others[0].poly
+    domain, g = parted
     slopes = [g.derivative(i) for i in range(part.free)]
     hessian = [[slope.derivative(j) for j in range(part.free)] for slope in slopes]
     if any(entry.variables and min(entry.variables) < part.free for row in hessian for entry in row):
@@ -62,6 +60,14 @@ def _spares_a_convex_set(part: System, budget: Budget) -> bool:
     inner = Ring.of(part.ring.names[part.free :])
     inside = tuple(Condition(c.poly.convert(inner), c.relation) for c in domain)
     return not any(_somewhere_negative(minor.convert(inner), inside, budget) for minor in _principal_minors(hessian))
+
+
+def _parted(part: System) -> tuple[list[Condition], Poly] | None:
+    """The conditions on y alone, and g, where the only other one is g(p, y) > 0."""
+    domain = [c for c in part.conditions if min(c.poly.variables) >= part.free]
+    others = [c for c in part.conditions if c not in domain]
+    single = not part.guards and len(others) == 1 and others[0].relation is FormRelation.LT
+    return (domain, -others[0].poly) if single else None
 
 
 def _principal_minors(matrix: Sequence[Sequence[Poly]]) -> list[Poly]:
@@ -91,15 +97,13 @@ def necessary_conditions(
     found: list[Formula] = []
     used: dict[Fraction, None] = {}
     for part in systems(convert(negated, ring), ring, len(parameters)):
-        domain = [c for c in part.conditions if min(c.poly.variables) >= part.free]
-        others = [c for c in part.conditions if c not in domain]
-        ends = _interval(domain, part.free) if len(variables) == 1 and len(others) == 1 else None
-        if part.guards or ends is None or others[0].relation is not FormRelation.LT:
+        parted = _parted(part) if len(variables) == 1 else None
+        if parted is None or (ends := _interval(parted[0], part.free)) is None:
             return None
         low, high = ends
         values = [low + (high - low) * k / SAMPLES for k in range(SAMPLES + 1)] if low < high else []
         used |= dict.fromkeys(values)
-        found += [atom(others[0].poly.at_rational(part.free, value), Relation.GE) for value in values]
+        found += [atom(parted[1].at_rational(part.free, value), Relation.LE) for value in values]
     return conj(found), tuple(used)
 
 
