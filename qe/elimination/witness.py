@@ -18,17 +18,17 @@ from fractions import Fraction
 from itertools import chain, combinations, islice
 from math import lcm
 
-from qe.elimination.critical.forms import ParametricForm, parametric_form
 from qe.elimination.protocol import Context, Outcome
 from qe.errors import InputError
+from qe.exact.parametric_form import ParametricForm, parametric_form
 from qe.exact.quadratic_form import solve_linear
 from qe.exact.ring import Poly, format_poly
 from qe.formula.block import Block
-from qe.formula.build import atom, conj, exists, forall, map_children, neg
-from qe.formula.evaluate import holds_at
+from qe.formula.build import conj, exists, forall, map_children, neg
+from qe.formula.evaluate import at_quotients, holds_at
 from qe.formula.normal import nnf, rename_apart
 from qe.formula.syntax import TRUE, And, Atom, Atomic, Exists, ForAll, Formula, Or, Relation
-from qe.formula.traverse import atoms, conjuncts, map_atoms, subformulas
+from qe.formula.traverse import atoms, conjuncts, subformulas
 from qe.options import Budget, Options
 from qe.proof.run_log import RunLog
 from qe.rules.preparation import prepare
@@ -156,18 +156,8 @@ def _instantiated(
 
 
 def substituted(formula: Formula, terms: Mapping[str, Term]) -> Formula:
-    """The formula with variables replaced by polynomials, one after the other; every atom is multiplied by a positive
-    number."""
-
-    def change(atomic: Atomic) -> Formula:
-        if not isinstance(atomic, Atom):
-            return atomic
-        poly: Poly = atomic.poly
-        for name, term in terms.items():
-            poly = poly.at_quotient(poly.ring.index[name], term.numerator, poly.ring.constant(term.denominator))
-        return atom(poly, atomic.relation)
-
-    return map_atoms(formula, change) if terms else formula
+    """The formula with variables replaced by polynomials; every atom is multiplied by a positive number."""
+    return at_quotients(formula, {name: (term.numerator, term.denominator) for name, term in terms.items()})
 
 
 # --- the proof --------------------------------------------------------------------------------------------

@@ -6,7 +6,7 @@ import re
 from collections.abc import Mapping, Sequence
 from fractions import Fraction
 
-from flint import fmpz_poly
+from flint import fmpz, fmpz_poly
 
 from qe.exact.algebraic import RealAlgebraic, real_roots
 from qe.exact.algebraic_text import in_latex
@@ -60,6 +60,11 @@ def simplest(value: Number) -> Number:
 def rational_ends(value: Number, bits: int) -> tuple[Fraction, Fraction]:
     """Rational numbers around a number, close together; the number itself, twice, where it is known to be rational."""
     return value.interval(bits) if isinstance(value, RealAlgebraic) else (value, value)
+
+
+def whole_root(n: int, k: int) -> int:
+    """The greatest whole number whose k-th power is at most n, for n >= 0."""
+    return int(fmpz(n).root(k))
 
 
 def square_root(value: Number) -> Number:

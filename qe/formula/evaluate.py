@@ -52,6 +52,20 @@ def substituted(formula: Formula, values: Mapping[str, Fraction | int]) -> Formu
     return map_atoms(formula, put)
 
 
+def at_quotients(formula: Formula, quotients: Mapping[str, tuple[Poly, int]]) -> Formula:
+    """The formula with p/n, n > 0, for variables, one after the other; root atoms stay as they are."""
+
+    def put(atomic: Atomic) -> Formula:
+        if isinstance(atomic, RootAtom):
+            return atomic
+        poly = atomic.poly
+        for name, (top, bottom) in quotients.items():
+            poly = poly.at_quotient(poly.ring.index[name], top, poly.ring.constant(bottom))
+        return atom(poly, atomic.relation)
+
+    return map_atoms(formula, put) if quotients else formula
+
+
 def truth_under(formula: Formula, sign: SignOracle, root: RootOracle | None = None) -> Truth:
     """The truth value that follows from the known signs (Kleene's strong logic), None if it does not follow.
 

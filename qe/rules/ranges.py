@@ -14,8 +14,7 @@ from dataclasses import dataclass, field
 from fractions import Fraction
 from math import inf, isfinite, isinf
 
-from flint import fmpz
-
+from qe.exact.number import whole_root
 from qe.exact.ring import Poly, SparseTerm
 from qe.formula.syntax import Atom, Formula, Relation
 from qe.formula.traverse import conjuncts

@@ -16,10 +16,9 @@ from fractions import Fraction
 from itertools import product
 from math import prod
 
-from qe.elimination import witness
 from qe.exact.sparse_solve import whole_multiples
 from qe.formula.build import conj
-from qe.formula.evaluate import substituted
+from qe.formula.evaluate import at_quotients, substituted
 from qe.formula.syntax import Formula
 from qe.formula.traverse import conjuncts, disjuncts, has_root_atoms
 from qe.rules.nullspace import constant_direction
@@ -77,4 +76,4 @@ def _moved(formula: Formula, name: str, direction: Direction) -> Formula:
     if (ring := formula.ring) is None:
         return formula
     others = {v: ring.var(v) * direction[name] - ring.var(name) * w for v, w in direction.items() if v != name}
-    return witness.substituted(formula, {v: witness.Term(top, direction[name]) for v, top in others.items()})
+    return at_quotients(formula, {v: (top, direction[name]) for v, top in others.items()})

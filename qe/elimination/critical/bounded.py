@@ -5,8 +5,8 @@ from __future__ import annotations
 from fractions import Fraction
 
 from qe.convex.system import is_convex
-from qe.elimination.critical.forms import parametric_form
 from qe.elimination.critical.system import System
+from qe.exact.parametric_form import parametric_form
 from qe.exact.quadratic_form import Definiteness, definiteness
 from qe.exact.ring import Poly
 from qe.proof.multipliers import FormRelation

@@ -12,10 +12,10 @@ from qe.convex.strict import feasible
 from qe.convex.system import is_convex
 from qe.convex.violation import proposed
 from qe.decomposition.over_point import over_point
-from qe.elimination.critical.forms import ParametricForm, parametric_form
 from qe.elimination.critical.system import System
 from qe.errors import Unable
 from qe.exact.nearby import rational_values
+from qe.exact.parametric_form import ParametricForm, parametric_form
 from qe.exact.quadratic_form import Quadratic, combine, solve_linear
 from qe.exact.ring import Poly
 from qe.exact.sample import Point

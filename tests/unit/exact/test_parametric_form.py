@@ -5,7 +5,7 @@ from fractions import Fraction
 from hypothesis import given
 from hypothesis import strategies as st
 
-from qe.elimination.critical.forms import parametric_form
+from qe.exact.parametric_form import parametric_form
 from qe.exact.ring import Poly, Ring
 from tests.tables import each
 
