@@ -18,6 +18,7 @@ from qe.errors import BudgetExceeded, Unable
 from qe.exact.balls import ends, precision
 from qe.exact.enclosure import Jet, Sides, box_sides, constant, root_jet, smooth_side
 from qe.exact.nearby import rational_between
+from qe.exact.number import rational_ends
 from qe.options import Budget
 from qe.regions.described import Described as Region
 from qe.regions.slices import has_closed_slices, slice_area
@@ -132,7 +133,7 @@ class _Sum:
             extent = self.region.bounds(r.variable)
             if extent.lower is None or extent.upper is None:
                 raise Unable(f"the region is unbounded in {r.variable}")
-            lo, hi = _outer(extent.lower, False), _outer(extent.upper, True)
+            lo, hi = rational_ends(extent.lower, 53)[0], rational_ends(extent.upper, 53)[1]
             bound *= (hi - lo) * (Fraction(3, 2) if i < self.sides else 1)
         return bound
 
@@ -165,13 +166,6 @@ def _end(root: RootFunction | None, at: dict[int, Jet], sides: Sides) -> Jet | N
     if root.value is not None:
         return constant(root.value, sides)
     return root_jet(root.poly, root.k, at, sides)
-
-
-def _outer(value: object, up: bool) -> Fraction:
-    if isinstance(value, Fraction):
-        return value
-    pair: tuple[Fraction, Fraction] = value.interval(53)  # type: ignore[attr-defined]
-    return pair[1] if up else pair[0]
 
 
 def _halves(box: Box) -> list[Box]:
