@@ -23,8 +23,8 @@ from bezier.curves import bernstein as bs
 from bezier.curves.nonnegative import Negative, decide
 from bezier.trajectories.piecewise import QUANTITIES, Jump, Trajectory
 from qe.exact.algebraic import RealAlgebraic
+from qe.exact.number import whole_root
 from qe.exact.rational_poly import RationalPoly
-from qe.rules.ranges import whole_root
 
 BITS = 128
 """Accuracy of the values at irrational times."""

@@ -223,12 +223,3 @@ def _root_above(value: Fraction, k: int) -> Fraction:
     """The k-th root, or a little more."""
     root = _root_below(value, k)
     return root if root**k == value else root + Fraction(1, 1 << BITS)
-
-
-def whole_root(n: int, k: int) -> int:
-    """The greatest whole number whose k-th power is at most n."""
-    low, high = 0, 1 << (n.bit_length() // k + 1)
-    while high - low > 1:
-        middle = (low + high) // 2
-        low, high = (middle, high) if middle**k <= n else (low, middle)
-    return low
