@@ -29,8 +29,11 @@ from bezier.obstacles.polyhedron import (
 from qe.errors import InputError, Unable
 from qe.exact.ring import Ring
 from qe.formula.normal import nnf
-from qe.formula.syntax import And, Atom, Constant, Formula, Or, Relation
+from qe.formula.syntax import And, Atom, Atomic, Constant, Formula, Or, Relation
+from qe.formula.traverse import map_atoms
 from qe.io.text import read as read_formula
+from qe.simplifier.factors import atom_under, reduce_atom
+from qe.simplifier.facts import NOTHING
 
 LIFT = Fraction(1, 10)
 
@@ -98,7 +101,8 @@ def formula_pieces(table: Table) -> tuple[tuple[Piece, ...], Any]:
         raise table.error("formula", "no free variables but x, y, z", shorten(", ".join(others)))
     try:
         answer = None if formula.is_quantifier_free else _answer(formula)
-        pieces = _pieces(nnf(formula if answer is None else answer.formula))
+        said = nnf(formula if answer is None else answer.formula)
+        pieces = _pieces(map_atoms(said, _by_factors))
     except (InputError, Unable) as error:
         raise table.error("formula", "a formula that can be used", str(error)) from None
     if not pieces:
@@ -111,6 +115,15 @@ def _answer(formula: Formula) -> Any:
     if answer.formula is None:
         raise Unable(answer.reason or "its quantifiers were not eliminated")
     return answer
+
+
+def _by_factors(given: Atomic) -> Formula:
+    """The same with factors of even exponents apart: p^2 * q <= 0 says that p = 0 or q <= 0, and p * q = 0 the same.
+    Then the sign of a polynomial changes at its boundary."""
+    if not isinstance(given, Atom):
+        return given
+    made = atom_under(given.poly, given.relation, NOTHING)
+    return map_atoms(made, lambda a: reduce_atom(a, NOTHING, False) if a.relation is Relation.EQ else a)
 
 
 def _pieces(formula: Formula) -> list[Constraints]:

@@ -93,6 +93,26 @@ def test_what_touches_leaves_no_passage(name: str) -> None:
     found.check()
 
 
+@each(
+    ("(x-5)^2*(y-3)^2 <= 0", True),
+    ("(x-5)^2*(y-3) = 0 & y >= 3", True),
+    ("-((x-5)*(x^2-35))^2 >= 0", True),
+    ("(x-5)^2 + (y-3)^2 <= 0", False),
+    ("(x-12)^4*((x-5)^2 + (y-5)^2 - 4) <= 0", False),
+)
+def test_squares_in_conditions_are_decided(text: str, blocked: bool) -> None:
+    """They were undecided after minutes: no sign changes where a square is 0."""
+    found = decided(read_scene({**SCENE, "obstacle": [formula(text)]}), Budget(20))
+    found.check()
+    assert found.blocked is blocked
+
+
+def test_what_small_cells_do_not_decide_is_soon_given_up() -> None:
+    """It took six times as long once cells lay along curves: which cells hang together was asked anew each time."""
+    with pytest.raises(qe.Unable, match="undecided"):
+        decided(read_scene({**SCENE, "obstacle": [formula("(x-5)^2*(y-3)^2 <= 1/10^20")]}), Budget(20))
+
+
 def test_a_gap_of_a_thousandth_between_discs_is_a_passage() -> None:
     listed = [formula("(x-5)^2 + (y-2)^2 <= 9"), formula("(x-5)^2 + (y-7501/1000)^2 <= 25/4")]
     found = decided(read_scene({**SCENE, "obstacle": listed}), Budget(60))
