@@ -23,6 +23,7 @@ from qe.proof.answer import UNPROVED, Answer
 from qe.proof.certificate import Certificate
 
 VALUE = "value"
+PROOF_SECONDS = 30.0
 
 Kind = TypeVar("Kind")
 Members = list[tuple[str, Certificate]]
@@ -106,9 +107,12 @@ def first_answer(question: Formula, budget: Budget, *, check: bool) -> tuple[Out
 def with_proof(
     optimum: Kind, question: Formula, outcome: Outcome, label: str, members: Members, budget: Budget, *, check: bool
 ) -> Kind:
-    """An optimum (a dataclass) with the proved answer to the question it comes from, and what else proves it."""
+    """An optimum (a dataclass) with the proved answer to the question it comes from, and what else proves it, where no
+    limit is given within ``PROOF_SECONDS``."""
     if check:
         budget.keep(replace(optimum, reason=UNPROVED))  # type: ignore[type-var]
+    if budget.deadline is None:
+        budget = Budget(PROOF_SECONDS, listener=budget.listener, parent=budget)
     answer = answer_to(question, proved(question, outcome, Options(certify=check), budget))
     proof = None if answer.certificate is None else Certificate.bundle([(label, answer.certificate), *members])
     return replace(optimum, answer=answer, certificate=proof)  # type: ignore[type-var]
