@@ -21,11 +21,13 @@ from operator import add, sub
 
 from qe.exact.quadratic_form import echelon, solve_linear
 from qe.exact.ring import Poly
-from qe.positivity.identity import Positive, Powers, sum_of
+from qe.positivity.identity import Identity, Positive, Powers, sum_of
 from qe.positivity.samples import drawn, grid
 
-MOST_MONOMIALS, MOST_LOOKED_AT, MOST_ENTRIES, MOST_EQUATIONS = 130, 10_000, 900, 260
+MOST_MONOMIALS, MOST_LOOKED_AT, MOST_ENTRIES, MOST_EQUATIONS = 220, 10_000, 3_000, 260
 MOST_TERMS, MOST_VARIABLES = 200, 6
+MOST_BITS, FEW = 4_000, 26
+"""Of a common denominator, and the number of products that are added at once where it is longer."""
 STEPS, LARGEST, NOISE = 60, 1e12, 1e-6  # of the solver; beyond these its point is not worth rounding
 _DENOMINATORS = (1, 2, 12, 60, 2**10, 2**20, 2**32)
 
@@ -80,7 +82,22 @@ def sum_of_squares(poly: Poly, orthant: frozenset[int] = frozenset()) -> Positiv
     monomial = tuple((ring.gen(i), e) for i, e in enumerate(shared) if e)
     rest = ring.from_terms({tuple(map(sub, e, shared)): c for e, c in poly.terms()}) if monomial else poly
     parts = [(c, (*monomial, *powers)) for c, powers in _products(rest, orthant)]
-    return Positive((sum_of(poly, parts),), any(not powers for _, powers in parts)) if parts else None
+    return Positive(_identities(poly, parts), any(not powers for _, powers in parts)) if parts else None
+
+
+def _identities(poly: Poly, parts: Sequence[tuple[Fraction, Powers]]) -> tuple[Identity, ...]:
+    """poly = sum of c * product; by way of sums of a few of these where the common denominator is long."""
+    if lcm(*(c.denominator for c, _ in parts)).bit_length() <= MOST_BITS:
+        return (sum_of(poly, parts),)
+    sums, rest = list[tuple[Fraction, Powers]](), list[Identity]()
+    for few in (parts[k : k + FEW] for k in range(0, len(parts), FEW)):
+        scale, total = lcm(*(c.denominator for c, _ in few)), 0 * poly
+        for c, powers in few:
+            total += prod((base**e for base, e in powers), start=poly.ring.constant(int(c * scale)))
+        content, primitive = total.normal()
+        sums.append((Fraction(content) / scale, ((primitive, 1),)))
+        rest.append(sum_of(primitive, [(c * scale / content, powers) for c, powers in few]))
+    return sum_of(poly, sums), *rest
 
 
 def _products(poly: Poly, orthant: frozenset[int]) -> list[tuple[Fraction, Powers]]:

@@ -12,8 +12,8 @@ from qe.positivity.ordered import ordered_differences
 from qe.positivity.samples import may_be_positive
 
 MOST_VARIABLES, MOST_DEGREE, MOST_TERMS = 6, 16, 200
-FEWEST_VARIABLES = 4
-"""Below this, decomposition decides sooner than the libraries of a semidefinite program are loaded."""
+FEWEST_VARIABLES, LOWEST_DEGREE = 4, 12
+"""Below these, decomposition decides sooner than the libraries of a semidefinite program are loaded."""
 
 
 @lru_cache(maxsize=5_000)
@@ -28,4 +28,4 @@ def nowhere_negative(poly: Poly, orthant: frozenset[int], least: int = FEWEST_VA
     found = binomial_squares(poly, signed)
     if found is None and signed:
         found = ordered_differences(poly, signed)
-    return found or (sum_of_squares(poly, signed) if len(used) >= least else None)
+    return found or (sum_of_squares(poly, signed) if len(used) >= least or degree >= LOWEST_DEGREE else None)
