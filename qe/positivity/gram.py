@@ -85,6 +85,14 @@ def sum_of_squares(poly: Poly, orthant: frozenset[int] = frozenset()) -> Positiv
     return Positive(_identities(poly, parts), any(not powers for _, powers in parts)) if parts else None
 
 
+@lru_cache(maxsize=500)
+def sum_under(poly: Poly, conditions: tuple[Poly, ...], orthant: frozenset[int]) -> Positive | None:
+    """That the polynomial is nowhere negative where the conditions and the variables of ``orthant`` are not: squares
+    times 1 or one of the conditions (Putinar 1993). None where none is found, or without clarabel."""
+    parts = _products(poly, orthant, conditions)
+    return Positive(_identities(poly, parts), any(not powers for _, powers in parts)) if parts else None
+
+
 def _identities(poly: Poly, parts: Sequence[tuple[Fraction, Powers]]) -> tuple[Identity, ...]:
     """poly = sum of c * product; by way of sums of a few of these where the common denominator is long."""
     if lcm(*(c.denominator for c, _ in parts)).bit_length() <= MOST_BITS:
@@ -100,11 +108,12 @@ def _identities(poly: Poly, parts: Sequence[tuple[Fraction, Powers]]) -> tuple[I
     return sum_of(poly, sums), *rest
 
 
-def _products(poly: Poly, orthant: frozenset[int]) -> list[tuple[Fraction, Powers]]:
+def _products(poly: Poly, orthant: frozenset[int], conditions: tuple[Poly, ...] = ()) -> list[tuple[Fraction, Powers]]:
     """Positive numbers and products that are nowhere negative, with the polynomial as sum; none if none are found."""
-    if any(poly.evaluate(point) < 0 for point in drawn(poly, orthant)):
+    points = (point for where in (drawn, grid) for point in where(poly, orthant))
+    if any(poly.evaluate(p) < 0 and all(c.evaluate(p) >= 0 for c in conditions) for p in points):
         return []
-    classes = _classes(poly, orthant)
+    classes = _classes(poly, orthant, conditions)
     width = sum(1 for squares in classes for _ in squares.places())
     rows, pivots = echelon(_equations(poly, classes)) if 0 < width <= MOST_ENTRIES else ([], [])
     if not rows or width in pivots:
@@ -134,20 +143,35 @@ def _parts(classes: Sequence[_Squares], entries: Sequence[Fraction]) -> list[tup
     return products
 
 
-def _classes(poly: Poly, orthant: frozenset[int]) -> list[_Squares]:
+def _classes(poly: Poly, orthant: frozenset[int], conditions: tuple[Poly, ...]) -> list[_Squares]:
     """The squares that may take part, by the parity of their monomials in y; none where they are too many."""
-    ring, gathered = poly.ring, dict[Exponents, list[Exponents]]()
-    for half in _halves(poly, orthant):
-        odd = tuple(e % 2 if i in orthant else 0 for i, e in enumerate(half))
+    ring, gathered = poly.ring, dict[tuple[Poly, ...], list[Exponents]]()
+    for factor, half in _under(poly, orthant, conditions) if conditions else (((), h) for h in _halves(poly, orthant)):
+        odd = tuple(ring.gen(i) for i in sorted(orthant) if half[i] % 2)
         base = tuple(e // 2 if i in orthant else e for i, e in enumerate(half))
-        gathered.setdefault(odd, []).append(base)
+        gathered.setdefault((*odd, *factor), []).append(base)
     zeros = [z for z in grid(poly, orthant) if not poly.evaluate(z)] if gathered else []
+    zeros = [z for z in zeros if all(c.evaluate(z) >= 0 for c in conditions)]
     classes = []
-    for odd, exponents in gathered.items():
-        seen = [z for z in zeros if all(x for x, o in zip(z, odd, strict=True) if o)]
+    for factors, exponents in gathered.items():
+        seen = [z for z in zeros if all(f.evaluate(z) for f in factors)]
         basis = _vanishing([ring.from_terms({e: 1}) for e in exponents], seen)
-        classes.append(_Squares(tuple(ring.gen(i) for i, o in enumerate(odd) if o), tuple(basis)))
+        classes.append(_Squares(factors, tuple(basis)))
     return [squares for squares in classes if squares.basis]
+
+
+def _under(
+    poly: Poly, orthant: frozenset[int], conditions: tuple[Poly, ...]
+) -> Iterator[tuple[tuple[Poly, ...], Exponents]]:
+    """Factors with the exponents of monomials in y, so that no product has a larger degree than what is given."""
+    used = {i for p in (poly, *conditions) for i in p.variables}
+    degree = max(p.total_degree for p in (poly, *conditions))
+    for factor in ((), *((c,) for c in conditions)):
+        room = degree + degree % 2 - sum(f.total_degree for f in factor)
+        sizes = (room // (1 if i in orthant else 2) + 1 if i in used else 1 for i in range(poly.ring.size))
+        for half in product(*map(range, sizes)) if room ** len(used) < MOST_LOOKED_AT else ():
+            if sum(e if i in orthant else 2 * e for i, e in enumerate(half)) <= room:
+                yield factor, half
 
 
 def _halves(poly: Poly, orthant: frozenset[int]) -> list[Exponents]:

@@ -20,10 +20,11 @@ from qe.rules.tree import Leaf, Node, Pending
 from qe.simplifier.facts import generator
 
 if TYPE_CHECKING:
-    from qe.positivity.identity import Identity
+    from qe.positivity.identity import Identity, Positive
 
-MOST_POLYNOMIALS, FEWEST_VARIABLES = 12, 3
-"""Polynomials of one block that are looked at, and variables of each: with fewer, other methods are as quick."""
+MOST_POLYNOMIALS, FEWEST_VARIABLES, MOST_CONDITIONS = 12, 3, 4
+"""Polynomials of one block that are looked at, variables of each (with fewer, other methods are as quick), and
+conditions that are taken together."""
 
 
 def signs_before_substitution(variables: tuple[str, ...], body: Formula, context: BlockContext) -> Found | None:
@@ -43,6 +44,25 @@ def conditions_of(parts: Sequence[Formula]) -> Iterator[tuple[Poly, tuple[Poly, 
             form = part.poly - (least := int(part.poly.evaluate((0,) * part.poly.ring.size)))
             if least < 0 and form.total_degree > 1 and len({sum(e) for e, _ in form.terms()}) == 1:
                 yield part.poly, (form, -least, part.relation is Relation.EQ)
+
+
+def _by_others(
+    poly: Poly, sign: int, parts: Sequence[Formula], known: Sequence[Formula], orthant: frozenset[int]
+) -> Positive | None:
+    """The sign of a polynomial by the other conditions, where one of the ``parts`` denies it: then nothing is left of
+    them, and no condition is dropped for another."""
+    from qe.positivity.gram import sum_under
+    from qe.positivity.prove import FEWEST_VARIABLES
+
+    denied = [a for a in parts if isinstance(a, Atom) and a.poly == poly and sign not in a.relation.signs]
+    atoms = (a for a in (*parts, *known) if isinstance(a, Atom) and a.poly != poly)
+    others = [a for a in atoms if a.poly.total_degree > 1 or a.poly.term_count() > 1]
+    conditions = [a.poly * s for a in others for s in (1, -1) if a.relation.signs <= {0, s}]
+    if not denied or not 0 < len(conditions) <= MOST_CONDITIONS or len(poly.variables) < FEWEST_VARIABLES:
+        return None
+    proof = sum_under(poly * sign, tuple(conditions), orthant)
+    enough = proof is not None and (proof.strict or any(0 not in a.relation.signs for a in denied))
+    return proof if enough else None
 
 
 def known_signs(variables: tuple[str, ...], body: Formula, context: BlockContext) -> Found | None:
@@ -85,6 +105,7 @@ def known_signs(variables: tuple[str, ...], body: Formula, context: BlockContext
                 or nowhere_negative(p, orthant)
                 or positive_on_cone(p, bounds)
                 or positive_under(p, under, orthant)
+                or _by_others(poly, sign, conjuncts(body), context.known, orthant)
             )
             if proof is None:
                 continue
