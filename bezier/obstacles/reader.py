@@ -29,11 +29,10 @@ from bezier.obstacles.polyhedron import (
 from qe.errors import InputError, Unable
 from qe.exact.ring import Ring
 from qe.formula.normal import nnf
-from qe.formula.syntax import And, Atom, Atomic, Constant, Formula, Or, Relation
-from qe.formula.traverse import map_atoms
+from qe.formula.syntax import And, Atom, Constant, Formula, Or, Relation
 from qe.io.text import read as read_formula
-from qe.simplifier.factors import atom_under, reduce_atom
-from qe.simplifier.facts import NOTHING
+from qe.simplifier.factors import atom_under
+from qe.simplifier.facts import NOTHING, factor_list
 
 LIFT = Fraction(1, 10)
 
@@ -101,8 +100,7 @@ def formula_pieces(table: Table) -> tuple[tuple[Piece, ...], Any]:
         raise table.error("formula", "no free variables but x, y, z", shorten(", ".join(others)))
     try:
         answer = None if formula.is_quantifier_free else _answer(formula)
-        said = nnf(formula if answer is None else answer.formula)
-        pieces = _pieces(map_atoms(said, _by_factors))
+        pieces = _pieces(nnf(formula if answer is None else answer.formula))
     except (InputError, Unable) as error:
         raise table.error("formula", "a formula that can be used", str(error)) from None
     if not pieces:
@@ -117,22 +115,14 @@ def _answer(formula: Formula) -> Any:
     return answer
 
 
-def _by_factors(given: Atomic) -> Formula:
-    """The same with factors of even exponents apart: p^2 * q <= 0 says that p = 0 or q <= 0, and p * q = 0 the same.
-    Then the sign of a polynomial changes at its boundary."""
-    if not isinstance(given, Atom):
-        return given
-    made = atom_under(given.poly, given.relation, NOTHING)
-    return map_atoms(made, lambda a: reduce_atom(a, NOTHING, False) if a.relation is Relation.EQ else a)
-
-
 def _pieces(formula: Formula) -> list[Constraints]:
     """The disjunctive normal form; at most ``MAX_PIECES`` conjunctions."""
     match formula:
         case Constant(value):
             return [()] if value else []
-        case Atom():
-            return _of_atom(formula)
+        case Atom():  # p^2 * q <= 0 says that p = 0 or q <= 0: then signs change at boundaries
+            made = atom_under(formula.poly, formula.relation, NOTHING)
+            return _of_atom(made) if isinstance(made, Atom) else _pieces(made)
         case Or(args):
             result = [piece for arg in args for piece in _pieces(arg)]
         case And(args):
@@ -161,7 +151,8 @@ def _of_atom(atom: Atom) -> list[Constraints]:
         case Relation.LE | Relation.LT:
             return [(Constraint.of(down, atom.relation is Relation.LT),)]
         case Relation.EQ:
-            return [(Constraint.of(up), Constraint.of(down))]
+            factors = [(dict(f.terms()), dict((-f).terms())) for f, _ in factor_list(atom.poly.convert(SPACE))]
+            return [(Constraint.of(f), Constraint.of(minus)) for f, minus in factors]
     return [(Constraint.of(up, True),), (Constraint.of(down, True),)]
 
 

@@ -45,14 +45,10 @@ def parallel_axes(chain: ArmChain, pose: Motion, entry: Entry, budget: Budget) -
                 return list(_six_joints(chain.constants, pose, entry, budget))
             if has_parallel_axes(chain.reversed):
                 return [p.backwards for p in _six_joints(chain.reversed.constants, back(pose), entry, budget)]
-    if len(chain.turns) == 4 and sum(chain.turns) == 3 and _only_heights(chain.constants[1:4]):
+    upright = not any(m[0][0][2] or m[0][1][2] for m in chain.constants[1:4])  # axes of one direction or its opposite
+    if len(chain.turns) == 4 and sum(chain.turns) == 3 and upright:
         return list(_with_slide(chain, pose))
     raise OtherShape("poses are for three parallel axes, alone or with two that meet, and for spherical wrists")
-
-
-def _only_heights(between: Sequence[Motion]) -> bool:
-    """Whether all axes have one direction, or its opposite."""
-    return all(not (m[0][0][2] or m[0][1][2]) for m in between)
 
 
 def _with_slide(chain: ArmChain, pose: Motion) -> Iterator[Position]:

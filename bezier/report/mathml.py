@@ -106,7 +106,8 @@ def _expression(node: ast.expr) -> str:
         case ast.BinOp(left, ast.Div(), right):
             return f"<mfrac>{_expression(left)}{_expression(right)}</mfrac>"
         case ast.BinOp(left, ast.Mult(), right):
-            sign = "" if isinstance(right, (ast.Call, ast.Name)) or _is_power(right) else "<mo>·</mo>"
+            plain = isinstance(right, ast.Call | ast.Name) or isinstance(getattr(right, "op", None), ast.Pow)
+            sign = "" if plain else "<mo>·</mo>"
             return f"<mrow>{_wrapped(left, None)}{sign}{_wrapped(right, None)}</mrow>"
         case ast.BinOp(left, ast.Pow(), right):
             return f"<msup>{_wrapped(left, ast.BinOp)}{_expression(right)}</msup>"
@@ -119,10 +120,6 @@ def _expression(node: ast.expr) -> str:
             inside = "<mo>,</mo>".join(map(_expression, arguments))
             return f"<mrow><mi>{escape(id)}</mi>{mathml.bracketed(inside)}</mrow>"
     return f"<mtext>{escape(ast.unparse(node))}</mtext>"
-
-
-def _is_power(node: ast.expr) -> bool:
-    return isinstance(node, ast.BinOp) and isinstance(node.op, ast.Pow)
 
 
 def _wrapped(node: ast.expr, kind: type[ast.expr] | None) -> str:

@@ -192,10 +192,9 @@ class FreeCells:
         return FreeCells.linked(free, obstacles)
 
     @staticmethod
-    def linked(cells: Sequence[Cell], obstacles: Sequence[Cell], known: FreeCells | None = None) -> FreeCells:
-        """Cells with the doors between them that no flat obstacle covers; ``known``: among the same obstacles, with
-        some of these cells."""
-        return FreeCells(tuple(cells), _doors(cells, [body for body in obstacles if body.is_flat], known))
+    def linked(cells: Sequence[Cell], obstacles: Sequence[Cell]) -> FreeCells:
+        """Cells with the doors between them that no flat obstacle covers."""
+        return FreeCells(tuple(cells), _doors(cells, [body for body in obstacles if body.is_flat]))
 
     def holding(self, point: Point) -> int | None:
         """The number of a cell with this point."""
@@ -240,27 +239,19 @@ def _divided(cell: Cell, body: Cell, flat: bool) -> tuple[Cell, Cell] | tuple[()
     return inner, outer
 
 
-def _doors(cells: Sequence[Cell], walls: Sequence[Cell], known: FreeCells | None) -> tuple[dict[int, Cell], ...]:
+def _doors(cells: Sequence[Cell], walls: Sequence[Cell]) -> tuple[dict[int, Cell], ...]:
     """The parts of sides that two cells have in common."""
-    places = {id(cell): i for i, cell in enumerate(cells)}
-    before = [places.get(id(cell)) for cell in known.cells] if known else []
-    kept = {i: n for n, i in enumerate(before) if i is not None}
     planes: dict[Side, tuple[list[tuple[int, int]], list[tuple[int, int]]]] = {}
     for i, cell in enumerate(cells):
         for k, side in enumerate(cell.sides):
             plane = primitive(side)
             turned = next(x for x in plane[0] if x) < 0
             planes.setdefault(opposite(plane) if turned else plane, ([], []))[turned].append((i, k))
-    doors = tuple(
-        {j: door for m, door in known.doors[kept[i]].items() if (j := before[m]) is not None}
-        if known and i in kept
-        else {}
-        for i in range(len(cells))
-    )
+    doors: tuple[dict[int, Cell], ...] = tuple({} for _ in cells)
     boxes = [[(min(c), max(c)) for c in zip(*cell.floats, strict=True)] for cell in cells]
     for ones, others in planes.values():
         for (i, k), (j, _) in product(ones, others):
-            if (i in kept and j in kept) or not _are_near(boxes[i], boxes[j]):
+            if not _are_near(boxes[i], boxes[j]):
                 continue
             door = common_side(cells[i], k, cells[j])
             if door is not None and not any(wall.contains(centre) for centre in [door.centre] for wall in walls):

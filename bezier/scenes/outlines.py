@@ -40,7 +40,9 @@ def outlines(scene: Scene, fine: int) -> tuple[Cell, tuple[Cell, ...]]:
         for j in (*(k for k in cells if k < i), len(solids) - 2, len(solids) - 1):
             other = cells.get(j) or Cell.box(solids[j].corners[0], solids[j].corners[0])
             is_body = j < len(scene.solids)  # start and goal are free, and may be on the boundary of an open body
-            if _apart(cells[i], other) or (is_body and common_point(solids[i], solids[j]) is not None):
+            pairs = (cells[i], other), (other, cells[i])
+            apart = any(min(b.signs(side)) > 0 for a, b in pairs for side in a.sides)
+            if apart or (is_body and common_point(solids[i], solids[j]) is not None):
                 continue
             strips = separators(solids[i], solids[j]) if not solids[i].tube and not solids[j].tube else None
             for k, side in zip((i, j), strips or (), strict=False):
@@ -52,11 +54,6 @@ def outlines(scene: Scene, fine: int) -> tuple[Cell, tuple[Cell, ...]]:
                 cells[i] = cells[i].cut((normal, short_between(reach, level)))[0] or cells[i]
     assert domain is not None
     return domain, tuple(cells.values())
-
-
-def _apart(one: Cell, other: Cell) -> bool:
-    """Whether a side of one has the other strictly beyond it."""
-    return any(min(b.signs(side)) > 0 for a, b in ((one, other), (other, one)) for side in a.sides)
 
 
 def rim_of(scene: Scene, part: Solid, normals: Sequence[Point]) -> list[Side]:

@@ -38,7 +38,7 @@ TURNS = 16384
 """Of entries of normals that are rounded, the largest."""
 SURE = 1e-12
 """What floating point may be wrong by, as a part of the terms that are added."""
-SMALLEST, SMALL, MOST_CELLS, ONE = Fraction(1, 2**24), Fraction(1, 200), 700, Fraction(1)
+SMALLEST, SMALL, MOST_CELLS, ONE = Fraction(1, 2**24), Fraction(1, 200), 600, Fraction(1)
 """Of cells, as parts of the workspace; from SMALL on places are looked for where formulas touch."""
 LENGTHS = Fraction(1, 16), Fraction(1, 256), Fraction(1, 4096)
 """Of bridges, as parts of the workspace."""
@@ -64,7 +64,6 @@ def decomposed(scene: Scene, fine: int, budget: Budget, even: Fraction = ONE) ->
             domain, FreeCells.of(domain, around, budget), scene, tuple((i,) for i in range(len(scene.bodies)))
         )
     bridges: list[Wall] | None = None if scene.dimension == 2 else []
-    graph: FreeCells | None = None
 
     def left_of(cell: Cell) -> tuple[Cell, ...]:
         part = cell.part(domain.sides)
@@ -86,13 +85,11 @@ def decomposed(scene: Scene, fine: int, budget: Budget, even: Fraction = ONE) ->
             else:
                 free += left_of(cell)
         if bridges is None and any(_width(cell) < SMALL * wide for cell in waiting):
-            bridges, graph = list(bridges_of(scene, budget)), None
+            bridges = list(bridges_of(scene, budget))
             around = (*around, *map(cell_of, bridges))
             mixed = [(cell, left_of(cell)) for cell, _ in mixed]
         split = {k for k, (cell, _) in enumerate(mixed) if _width(cell) > even * wide}
-        if not split:
-            graph = FreeCells.linked((*free, *(part for _, parts in mixed for part in parts)), around, graph)
-            split = _between(scene, graph, [k for k, (_, parts) in enumerate(mixed) for _ in parts])
+        split = split or _between(scene, free, [cells for _, cells in mixed], around)
         waiting = [half for k in sorted(split) for half in _parts(scene, mixed[k][0])]
         mixed = [entry for k, entry in enumerate(mixed) if k not in split]
         if len(mixed) + len(waiting) > MOST_CELLS or any(_width(cell) < SMALLEST * wide for cell in waiting):
@@ -188,10 +185,10 @@ def _planes(scene: Scene) -> Iterator[Side]:
         yield tuple(terms.get(key, ZERO) for key in UNITS[: scene.dimension]), -terms.get((0, 0, 0), ZERO)
 
 
-def _between(scene: Scene, graph: FreeCells, mixed: Sequence[int]) -> set[int]:
-    """The numbers of mixed cells that ways from start to goal lead through, none twice; none where a way is free.
-    ``mixed``: those of the last cells of the graph."""
-    owners = dict(enumerate(mixed, start=len(graph.cells) - len(mixed)))
+def _between(scene: Scene, free: Sequence[Cell], mixed: Sequence[Sequence[Cell]], walls: Sequence[Cell]) -> set[int]:
+    """The numbers of mixed cells that ways from start to goal lead through, none twice; none where a way is free."""
+    owners = {len(free) + n: k for n, k in enumerate(k for k, cells in enumerate(mixed) for _ in cells)}
+    graph = FreeCells.linked((*free, *(cell for cells in mixed for cell in cells)), walls)
     start, goal, split = graph.holding(scene.start), graph.holding(scene.goal), set[int]()
     while start is not None and goal is not None and goal in (before := graph.reached(start, owners)):
         met = {i for i in graph.way(before, goal) if i in owners}

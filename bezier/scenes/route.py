@@ -32,7 +32,7 @@ from bezier.obstacles.survey import clearance_certificate, meeting
 from bezier.scenes.barrier import Wall, barrier, longer
 from bezier.scenes.bound import LengthBound, least_length
 from bezier.scenes.cells import Cell, FreeCells, Point, points_along
-from bezier.scenes.region import Decomposed, decomposed
+from bezier.scenes.region import decomposed
 from bezier.scenes.scene import Scene
 from bezier.scenes.sentences import Curve, cell_of, coordinates, covering, every, in_the_way, of_sides, surfaces, taken
 from bezier.scenes.shortest import chains
@@ -336,18 +336,14 @@ def _in_plane(scene: Scene, budget: Budget) -> Route | Blocked:
         if (known := _joined(scene, parts.free)) is not None:
             return known
         if scene.formulas and (walls := barrier(parts.within)):
-            walls = longer(scene, tuple(replace(w, bodies=_owners(parts, w)) for w in walls))
+            owners = [dict.fromkeys(n for i in w.bodies for n in parts.numbers[i]) for w in walls]
+            walls = longer(scene, tuple(replace(w, bodies=tuple(o)) for w, o in zip(walls, owners, strict=True)))
             break
     cells = list(map(cell_of, walls))
     result = _separated(scene, Cell.box(scene.low, scene.high), cells, walls, budget) if walls else None
     if result is None:
         raise Unable("undecided: a passage that only one point is wide, between a hole and the rim of the workspace")
     return result
-
-
-def _owners(parts: Decomposed, wall: Wall) -> tuple[int, ...]:
-    """The bodies of the scene that a wall is in."""
-    return tuple(dict.fromkeys(number for i in wall.bodies for number in parts.numbers[i]))
 
 
 def _in_space(scene: Scene, budget: Budget) -> Route | Blocked:

@@ -359,9 +359,5 @@ def _piece(table: CellTable, ranges: tuple[Range, ...], place: Place) -> Piece:
 def _chosen(candidates: Candidates | None) -> RootFunction | None:
     if candidates is None:
         return None
-    return min(candidates, key=lambda r: (r.poly.degree(r.poly.level), r.poly.term_count(), _as_text(r.poly), r.k))
-
-
-def _as_text(poly: Poly) -> str:
-    """The terms as text; of numbers that are too long for that, none."""
-    return str(poly.terms()) if poly.height_bits() < LONGEST_BITS else ""
+    texts = {p: str(p.terms()) if p.height_bits() < LONGEST_BITS else "" for p in {r.poly for r in candidates}}
+    return min(candidates, key=lambda r: (r.poly.degree(r.poly.level), r.poly.term_count(), texts[r.poly], r.k))

@@ -27,7 +27,8 @@ class ExactPoint(dict[str, Number], SymPyForm):
 
 def point_in_latex(point: Mapping[str, object]) -> str:
     """A point for math mode."""
-    return r",\ ".join(rf"\mathit{{{_escaped(name)}}} = {in_latex(value)}" for name, value in point.items())
+    names = {n: re.sub(r"([_#$%&{}])", r"\\\1", n).replace("^", r"\char94 ").replace("~", r"\sim ") for n in point}
+    return r",\ ".join(rf"\mathit{{{names[n]}}} = {in_latex(value)}" for n, value in point.items())
 
 
 def optimum_in_latex(status: str, value: object, points: Sequence[Mapping[str, object]], *, near: bool = False) -> str:
@@ -39,10 +40,6 @@ def optimum_in_latex(status: str, value: object, points: Sequence[Mapping[str, o
     where = rf"\quad\text{{at}}\quad {at}" if points else r"\quad\text{(not attained)}"
     about = r"\approx " if near else ""
     return rf"$\displaystyle {about}{in_latex(value)}{where}$"
-
-
-def _escaped(name: str) -> str:
-    return re.sub(r"([_#$%&{}])", r"\\\1", name).replace("^", r"\char94 ").replace("~", r"\sim ")
 
 
 def point_text(point: Mapping[str, object], between: str = ", ") -> str:

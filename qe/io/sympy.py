@@ -205,15 +205,11 @@ def _node_to_sympy(node: s.Node) -> Any:
             terms = [term_to_sympy(side) for side in given]
             pairs = zip(terms, relations, terms[1:], strict=False)
             said = [getattr(sp, r.name.title())(left, right, evaluate=False) for left, r, right in pairs]
-            return sp.And(*(one.reversed if _is_end(one.lhs, one.rhs) else one for one in said))
+            turned = [one.lhs.is_number or (one.rhs.is_Symbol and not one.lhs.is_Symbol) for one in said]  # as 0 < x
+            return sp.And(*(one.reversed if turn else one for one, turn in zip(said, turned, strict=True)))
         case s.Negation(part):
             return sp.Not(_node_to_sympy(part))
     raise InputError("SymPy has no quantifiers; eliminate them first")
-
-
-def _is_end(left: Any, right: Any) -> bool:
-    """Whether a comparison has what is compared on the right: ``0 < x``."""
-    return bool(left.is_number or (right.is_Symbol and not left.is_Symbol))
 
 
 def expression_from(given: object) -> Any:

@@ -18,12 +18,11 @@ from qe.engine.run import answer_to, answered, proved
 from qe.exact.ring import Poly, Ring
 from qe.formula.build import atom, conj, convert, exists
 from qe.formula.syntax import Formula, Relation
-from qe.options import Budget, Options
+from qe.options import VERIFY_SECONDS, Budget, Options
 from qe.proof.answer import UNPROVED, Answer
 from qe.proof.certificate import Certificate
 
 VALUE = "value"
-PROOF_SECONDS = 30.0
 
 Kind = TypeVar("Kind")
 Members = list[tuple[str, Certificate]]
@@ -107,12 +106,11 @@ def first_answer(question: Formula, budget: Budget, *, check: bool) -> tuple[Out
 def with_proof(
     optimum: Kind, question: Formula, outcome: Outcome, label: str, members: Members, budget: Budget, *, check: bool
 ) -> Kind:
-    """An optimum (a dataclass) with the proved answer to the question it comes from, and what else proves it, where no
-    limit is given within ``PROOF_SECONDS``."""
+    """An optimum (a dataclass) with the proved answer to the question it comes from, and what else proves it.
+    Without a limit the proof gets one of its own: no answer is lost for it."""
     if check:
         budget.keep(replace(optimum, reason=UNPROVED))  # type: ignore[type-var]
-    if budget.deadline is None:
-        budget = Budget(PROOF_SECONDS, listener=budget.listener, parent=budget)
+    budget = budget if budget.deadline else Budget(VERIFY_SECONDS / 2, listener=budget.listener, parent=budget)
     answer = answer_to(question, proved(question, outcome, Options(certify=check), budget))
     proof = None if answer.certificate is None else Certificate.bundle([(label, answer.certificate), *members])
     return replace(optimum, answer=answer, certificate=proof)  # type: ignore[type-var]

@@ -74,22 +74,16 @@ class _Squares:
 
 
 @lru_cache(maxsize=500)
-def sum_of_squares(poly: Poly, orthant: frozenset[int] = frozenset()) -> Positive | None:
-    """That the polynomial is nowhere negative where the variables of ``orthant`` are not; None where none is found, or
-    without clarabel."""
+def sum_of_squares(
+    poly: Poly, orthant: frozenset[int] = frozenset(), conditions: tuple[Poly, ...] = ()
+) -> Positive | None:
+    """That the polynomial is nowhere negative where the variables of ``orthant`` and the conditions are not: by squares
+    times 1 or one of these (Putinar 1993). None where none is found, or without clarabel."""
     ring, lowest = poly.ring, [min(powers) for powers in zip(*(e for e, _ in poly.terms()), strict=True)]
     shared = [e if i in orthant else e - e % 2 for i, e in enumerate(lowest)]
     monomial = tuple((ring.gen(i), e) for i, e in enumerate(shared) if e)
     rest = ring.from_terms({tuple(map(sub, e, shared)): c for e, c in poly.terms()}) if monomial else poly
-    parts = [(c, (*monomial, *powers)) for c, powers in _products(rest, orthant)]
-    return Positive(_identities(poly, parts), any(not powers for _, powers in parts)) if parts else None
-
-
-@lru_cache(maxsize=500)
-def sum_under(poly: Poly, conditions: tuple[Poly, ...], orthant: frozenset[int]) -> Positive | None:
-    """That the polynomial is nowhere negative where the conditions and the variables of ``orthant`` are not: squares
-    times 1 or one of the conditions (Putinar 1993). None where none is found, or without clarabel."""
-    parts = _products(poly, orthant, conditions)
+    parts = [(c, (*monomial, *powers)) for c, powers in _products(rest, orthant, conditions)]
     return Positive(_identities(poly, parts), any(not powers for _, powers in parts)) if parts else None
 
 
@@ -126,52 +120,31 @@ def _products(poly: Poly, orthant: frozenset[int], conditions: tuple[Poly, ...] 
         for pivot, row in zip(pivots, system, strict=True):  # in which no other pivot occurs
             others = sum((c * chosen[k] for k, c in row.items() if k not in (pivot, width)), Fraction(0))
             chosen[pivot] = row.get(width, Fraction(0)) - others
-        parts = _parts(classes, chosen)
-        if parts is not None:
-            return parts
+        entries = iter(chosen)
+        parts = [squares.parts(entries) for squares in classes]
+        if None not in parts:
+            return [each for listed in parts for each in listed or ()]
     return []
-
-
-def _parts(classes: Sequence[_Squares], entries: Sequence[Fraction]) -> list[tuple[Fraction, Powers]] | None:
-    """The products of all classes; None where a matrix is not positive semidefinite."""
-    left, products = iter(entries), list[tuple[Fraction, Powers]]()
-    for squares in classes:
-        parts = squares.parts(left)
-        if parts is None:
-            return None
-        products += parts
-    return products
 
 
 def _classes(poly: Poly, orthant: frozenset[int], conditions: tuple[Poly, ...]) -> list[_Squares]:
     """The squares that may take part, by the parity of their monomials in y; none where they are too many."""
     ring, gathered = poly.ring, dict[tuple[Poly, ...], list[Exponents]]()
-    for factor, half in _under(poly, orthant, conditions) if conditions else (((), h) for h in _halves(poly, orthant)):
-        odd = tuple(ring.gen(i) for i in sorted(orthant) if half[i] % 2)
-        base = tuple(e // 2 if i in orthant else e for i, e in enumerate(half))
-        gathered.setdefault((*odd, *factor), []).append(base)
-    zeros = [z for z in grid(poly, orthant) if not poly.evaluate(z)] if gathered else []
-    zeros = [z for z in zeros if all(c.evaluate(z) >= 0 for c in conditions)]
+    given, most = (poly, *conditions), max(p.total_degree for p in (poly, *conditions))
+    for factor in ((), *((c,) for c in conditions)):
+        room = 2 * ((most + 1) // 2 - (sum(f.total_degree for f in factor) + 1) // 2)
+        within = sum((ring.gen(i) ** room for i in {i for p in given for i in p.variables}), ring.constant(1))
+        for half in _halves(within if conditions else poly, orthant):
+            odd = tuple(ring.gen(i) for i in sorted(orthant) if half[i] % 2)
+            base = tuple(e // 2 if i in orthant else e for i, e in enumerate(half))
+            gathered.setdefault((*odd, *factor), []).append(base)
+    zeros = [z for z in grid(poly, orthant) if not poly.evaluate(z) and all(c.evaluate(z) >= 0 for c in conditions)]
     classes = []
     for factors, exponents in gathered.items():
         seen = [z for z in zeros if all(f.evaluate(z) for f in factors)]
         basis = _vanishing([ring.from_terms({e: 1}) for e in exponents], seen)
         classes.append(_Squares(factors, tuple(basis)))
     return [squares for squares in classes if squares.basis]
-
-
-def _under(
-    poly: Poly, orthant: frozenset[int], conditions: tuple[Poly, ...]
-) -> Iterator[tuple[tuple[Poly, ...], Exponents]]:
-    """Factors with the exponents of monomials in y, so that no product has a larger degree than what is given."""
-    used = {i for p in (poly, *conditions) for i in p.variables}
-    degree = max(p.total_degree for p in (poly, *conditions))
-    for factor in ((), *((c,) for c in conditions)):
-        room = degree + degree % 2 - sum(f.total_degree for f in factor)
-        sizes = (room // (1 if i in orthant else 2) + 1 if i in used else 1 for i in range(poly.ring.size))
-        for half in product(*map(range, sizes)) if room ** len(used) < MOST_LOOKED_AT else ():
-            if sum(e if i in orthant else 2 * e for i, e in enumerate(half)) <= room:
-                yield factor, half
 
 
 def _halves(poly: Poly, orthant: frozenset[int]) -> list[Exponents]:

@@ -51,16 +51,15 @@ def _by_others(
 ) -> Positive | None:
     """The sign of a polynomial by the other conditions, where one of the ``parts`` denies it: then nothing is left of
     them, and no condition is dropped for another."""
-    from qe.positivity.gram import sum_under
-    from qe.positivity.prove import FEWEST_VARIABLES
+    from qe.positivity.gram import sum_of_squares
 
     denied = [a for a in parts if isinstance(a, Atom) and a.poly == poly and sign not in a.relation.signs]
     atoms = (a for a in (*parts, *known) if isinstance(a, Atom) and a.poly != poly)
     others = [a for a in atoms if a.poly.total_degree > 1 or a.poly.term_count() > 1]
     conditions = [a.poly * s for a in others for s in (1, -1) if a.relation.signs <= {0, s}]
-    if not denied or not 0 < len(conditions) <= MOST_CONDITIONS or len(poly.variables) < FEWEST_VARIABLES:
+    if not denied or not 0 < len(conditions) <= MOST_CONDITIONS or len(poly.variables) <= FEWEST_VARIABLES:
         return None
-    proof = sum_under(poly * sign, tuple(conditions), orthant)
+    proof = sum_of_squares(poly * sign, orthant, tuple(conditions))
     enough = proof is not None and (proof.strict or any(0 not in a.relation.signs for a in denied))
     return proof if enough else None
 

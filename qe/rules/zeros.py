@@ -55,7 +55,8 @@ def needed(parts: Sequence[Formula]) -> tuple[Formula, ...]:
     for part in about_zeros:
         others = [other for other in kept if other is not part]
         if all(
-            truth_under(part, _zeros(zero)) or any(truth_under(o, _signs(zero, names)) is False for o in others)
+            truth_under(part, lambda poly: 0 if zero.intersection(poly.variables) else 1)  # noqa: B023
+            or any(truth_under(o, _signs(zero, names)) is False for o in others)
             for zero in patterns
         ):
             kept = others
@@ -67,11 +68,6 @@ def _is_about_zeros(part: Formula) -> bool:
         isinstance(a, Atom) and a.relation in (Relation.EQ, Relation.NE) and a.poly.term_count() == 1
         for a in atoms(part)
     )
-
-
-def _zeros(zero: Pattern) -> Callable[[Poly], int]:
-    """Whether a product of variables is 0, for conditions that ask no more."""
-    return lambda poly: 0 if zero.intersection(poly.variables) else 1
 
 
 def _signs(zero: Pattern, names: Sequence[int]) -> Callable[[Poly], int | None]:

@@ -53,7 +53,8 @@ def _merge_pair(
                 continue
             union = join((earlier[1], part))
             atomic = isinstance(part, Atom)
-            if not isinstance(union, Atom | Constant) and (atomic or not _is_less(union, (earlier[1], part))):
+            is_less = sum(1 for _ in atoms(union)) < sum(1 for one in (earlier[1], part) for _ in atoms(one))
+            if not isinstance(union, Atom | Constant) and (atomic or not is_less):
                 continue
             ordered = [p for p in member.args if p is not part and p in rest]  # type: ignore[union-attr]
             if not isinstance(union, Constant):
@@ -61,7 +62,3 @@ def _merge_pair(
             replacement = build(ordered)
             return [replacement if m is earlier[0] else m for m in members if m is not member]
     return None
-
-
-def _is_less(union: Formula, parts: tuple[Formula, ...]) -> bool:
-    return sum(1 for _ in atoms(union)) < sum(1 for part in parts for _ in atoms(part))

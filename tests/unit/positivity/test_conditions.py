@@ -2,6 +2,7 @@
 
 import random
 from fractions import Fraction
+from math import prod
 
 import pytest
 from hypothesis import given, settings
@@ -13,9 +14,10 @@ from qe.formula.evaluate import holds_at
 from qe.formula.traverse import conjuncts
 from qe.io.text import read, read_polynomial
 from qe.options import Budget
-from qe.positivity import conditions
+from qe.positivity import conditions, gram
 from qe.positivity.conditions import positive_under
-from qe.positivity.identity import Positive
+from qe.positivity.gram import sum_of_squares
+from qe.positivity.identity import Positive, sum_of
 from qe.rules.block_context import BlockContext
 from qe.rules.squares import conditions_of, known_signs
 from qe.rules.step import StepKind
@@ -119,3 +121,47 @@ def test_a_broken_producer_is_refused(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(conditions, "nowhere_negative", lambda poly, orthant: Positive((), False))
     (step,) = [step for step in steps_of(text) if step not in found]
     assert not accepted(step)
+
+
+BALL = "x^2 + y^2 + z^2 + w^2 <= 1"
+
+
+@each(
+    (BALL, "x^3 + y^3 + z^3 + w^3 + x*y*z*w >= -1", True),
+    (BALL, "x^3 + y^3 + z^3 + w^3 + x*y*z*w >= -9/10", False),
+    (BALL, "x^2*y + y^2*z + z^2*w + w^2*x <= 3/5", True),
+    ("a > 0 and b > 0 and c > 0", "(a^5 - a^2 + 3)*(b^5 - b^2 + 3)*(c^5 - c^2 + 3) >= (a + b + c)^3", True),
+)
+def test_squares_times_conditions(where: str, claim: str, truth: bool) -> None:
+    """Only the second was decided within 12 s and checked; the last is problem 5 of the USA olympiad of 2004."""
+    pytest.importorskip("clarabel")
+    found = qe.eliminate(f"all x, y, z, w, a, b, c. {where} -> {claim}", check=True, timeout=60)
+    assert (found.truth, found.guarantee) == (truth, qe.Guarantee.CHECKED)
+
+
+@settings(deadline=None, max_examples=30, derandomize=True)
+@given(st.integers(0, 10**9))
+def test_no_product_is_claimed_where_a_point_of_the_conditions_has_a_negative_value(seed: int) -> None:
+    """Identities are multiplied out, and the products are not negative at random points of the conditions."""
+    rng = random.Random(seed)
+    terms = {tuple(rng.randint(0, 1) for _ in range(3)): rng.randint(-2, 2) for _ in range(4)}
+    ball, edge = (read_polynomial(t)[0].convert(RING) for t in ("1 - x^2 - y^2 - z^2", "x*y - z"))
+    poly, orthant = RING.from_terms({k: v for k, v in terms.items() if v}) + rng.randint(0, 2), frozenset({0})
+    proof = sum_of_squares(poly, orthant, (ball, edge)) if poly else None
+    points = [[Fraction(rng.randint(-5, 5), 7) for _ in range(3)] for _ in range(60)]
+    for point in points if proof is not None else ():
+        if point[0] >= 0 and ball.evaluate(point) >= 0 and edge.evaluate(point) >= 0:
+            assert poly.evaluate(point) >= 0
+    for identity in proof.identities if proof is not None else ():
+        assert not sum(
+            (prod((b**e for b, e in powers), start=RING.constant(c)) for c, powers in identity.terms), 0 * poly
+        )
+
+
+def test_a_claim_without_a_proof_by_squares_is_refused(monkeypatch: pytest.MonkeyPatch) -> None:
+    """The kernel multiplies out what a broken search says: nothing false is accepted as checked."""
+    monkeypatch.setattr(
+        gram, "sum_of_squares", lambda poly, *rest: Positive((sum_of(poly, [(Fraction(1), ())]),), True)
+    )
+    found = qe.eliminate(f"all x, y, z, w. {BALL} -> x*y*z + w <= 1/2", check=True, timeout=20, process=False)
+    assert found.guarantee is not qe.Guarantee.CHECKED or found.truth is False
