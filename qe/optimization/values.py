@@ -106,8 +106,7 @@ def first_answer(question: Formula, budget: Budget, *, check: bool) -> tuple[Out
 def with_proof(
     optimum: Kind, question: Formula, outcome: Outcome, label: str, members: Members, budget: Budget, *, check: bool
 ) -> Kind:
-    """An optimum (a dataclass) with the proved answer to the question it comes from, and what else proves it.
-    Without a limit the proof gets one of its own: no answer is lost for it."""
+    """An optimum (a dataclass) with the proved answer to its question, and what else proves it; always limited."""
     if check:
         budget.keep(replace(optimum, reason=UNPROVED))  # type: ignore[type-var]
     budget = budget if budget.deadline else Budget(VERIFY_SECONDS / 2, listener=budget.listener, parent=budget)

@@ -26,8 +26,7 @@ from qe.positivity.samples import drawn, grid
 
 MOST_MONOMIALS, MOST_LOOKED_AT, MOST_ENTRIES, MOST_EQUATIONS = 220, 10_000, 3_000, 260
 MOST_TERMS, MOST_VARIABLES = 200, 6
-MOST_BITS, FEW = 4_000, 26
-"""Of a common denominator, and the number of products that are added at once where it is longer."""
+MOST_BITS, FEW = 4_000, 26  # of a common denominator; where it is longer, so many products are added at once
 STEPS, LARGEST, NOISE = 60, 1e12, 1e-6  # of the solver; beyond these its point is not worth rounding
 _DENOMINATORS = (1, 2, 12, 60, 2**10, 2**20, 2**32)
 
@@ -74,16 +73,14 @@ class _Squares:
 
 
 @lru_cache(maxsize=500)
-def sum_of_squares(
-    poly: Poly, orthant: frozenset[int] = frozenset(), conditions: tuple[Poly, ...] = ()
-) -> Positive | None:
-    """That the polynomial is nowhere negative where the variables of ``orthant`` and the conditions are not: by squares
-    times 1 or one of these (Putinar 1993). None where none is found, or without clarabel."""
+def sum_of_squares(poly: Poly, orthant: frozenset[int] = frozenset(), under: tuple[Poly, ...] = ()) -> Positive | None:
+    """That the polynomial is nowhere negative where the variables of ``orthant`` and conditions (``under``) are not, by
+    squares times 1 or one of these (Putinar 1993). None where none is found, or without clarabel."""
     ring, lowest = poly.ring, [min(powers) for powers in zip(*(e for e, _ in poly.terms()), strict=True)]
     shared = [e if i in orthant else e - e % 2 for i, e in enumerate(lowest)]
     monomial = tuple((ring.gen(i), e) for i, e in enumerate(shared) if e)
     rest = ring.from_terms({tuple(map(sub, e, shared)): c for e, c in poly.terms()}) if monomial else poly
-    parts = [(c, (*monomial, *powers)) for c, powers in _products(rest, orthant, conditions)]
+    parts = [(c, (*monomial, *powers)) for c, powers in _products(rest, orthant, under)]
     return Positive(_identities(poly, parts), any(not powers for _, powers in parts)) if parts else None
 
 

@@ -23,8 +23,7 @@ if TYPE_CHECKING:
     from qe.positivity.identity import Identity, Positive
 
 MOST_POLYNOMIALS, FEWEST_VARIABLES, MOST_CONDITIONS = 12, 3, 4
-"""Polynomials of one block that are looked at, variables of each (with fewer, other methods are as quick), and
-conditions that are taken together."""
+"""Polynomials of a block, variables of each (with fewer, other methods are as quick), conditions taken together."""
 
 
 def signs_before_substitution(variables: tuple[str, ...], body: Formula, context: BlockContext) -> Found | None:
@@ -46,15 +45,12 @@ def conditions_of(parts: Sequence[Formula]) -> Iterator[tuple[Poly, tuple[Poly, 
                 yield part.poly, (form, -least, part.relation is Relation.EQ)
 
 
-def _by_others(
-    poly: Poly, sign: int, parts: Sequence[Formula], known: Sequence[Formula], orthant: frozenset[int]
-) -> Positive | None:
-    """The sign of a polynomial by the other conditions, where one of the ``parts`` denies it: then nothing is left of
-    them, and no condition is dropped for another."""
+def _by_others(poly: Poly, sign: int, body: Formula, context: BlockContext, orthant: frozenset[int]) -> Positive | None:
+    """The sign of a polynomial by the others, where the body denies it: no condition is dropped for another one."""
     from qe.positivity.gram import sum_of_squares
 
-    denied = [a for a in parts if isinstance(a, Atom) and a.poly == poly and sign not in a.relation.signs]
-    atoms = (a for a in (*parts, *known) if isinstance(a, Atom) and a.poly != poly)
+    denied = [a for a in conjuncts(body) if isinstance(a, Atom) and a.poly == poly and sign not in a.relation.signs]
+    atoms = (a for a in (*conjuncts(body), *context.known) if isinstance(a, Atom) and a.poly != poly)
     others = [a for a in atoms if a.poly.total_degree > 1 or a.poly.term_count() > 1]
     conditions = [a.poly * s for a in others for s in (1, -1) if a.relation.signs <= {0, s}]
     if not denied or not 0 < len(conditions) <= MOST_CONDITIONS or len(poly.variables) <= FEWEST_VARIABLES:
@@ -104,7 +100,7 @@ def known_signs(variables: tuple[str, ...], body: Formula, context: BlockContext
                 or nowhere_negative(p, orthant)
                 or positive_on_cone(p, bounds)
                 or positive_under(p, under, orthant)
-                or _by_others(poly, sign, conjuncts(body), context.known, orthant)
+                or _by_others(poly, sign, body, context, orthant)
             )
             if proof is None:
                 continue
