@@ -52,14 +52,13 @@ class Projection:
         system = LinearRows.of(atoms)
         bound = [j for j, name in enumerate(system.names) if name in problem.variables]
         projected = shadow(Polyhedron.of(system), bound, check)
-        positive = FALSE if projected is None else _formula(projected, system.names, problem.free)
+        positive = FALSE if projected is None else _formula(projected, system.names, atoms[0].poly.ring)
         after = nnf(positive, negate=problem.universal)
         return Outcome(context.log.step("projection", problem.formula, after), shortest=True)
 
 
-def _formula(projected: Polyhedron, names: tuple[str, ...], free: tuple[str, ...]) -> Formula:
+def _formula(projected: Polyhedron, names: tuple[str, ...], ring: Ring) -> Formula:
     """The conditions; two half-spaces that touch are an equation."""
-    ring = Ring.of(free)
     known = {(row.normal, row.constant) for row in projected.halves if not row.strict}
     parts = [row.condition(names, ring, Relation.EQ) for row in projected.equations]
     for row in projected.halves:

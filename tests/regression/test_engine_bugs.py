@@ -238,3 +238,19 @@ def test_values_that_do_not_show_an_answer_are_given_to_nobody(text: str) -> Non
     assert exhibited(block, {"x": Fraction(1), "y": Fraction(2)}) == {"x": 1, "y": 2}
     with pytest.raises(Contradiction):
         exhibited(block, {"x": Fraction(1)})
+
+
+def test_conditions_of_a_local_variable_that_is_projected_join_the_others() -> None:
+    """The shadow of those of p was written in a ring of its parameters alone: "a formula over two rings"."""
+    names = [f"(declare-const {name} Real)" for name in "xyzwuv"] + [f"(declare-const {name} Bool)" for name in "pqr"]
+    asserted = (
+        "(xor r (and (=> (= (- y x) 4) q) (xor (and r (= z y)) (distinct (+ (* 4 u) (* (- 3) v) (* (- 4) w)) (- 3)))))",
+        "(xor (not (< (- y x) (- 3))) (or (> (- u z) (- 1)) (not (>= (+ (* 2 x) w (* 4 u)) (- 2)))))",
+        "(and (or (not p) (= (+ (* (- 2) v) (* (- 4) y) z) (- 2))) p)",
+        "(or (distinct (- z v) (- 4)) (<= u w) (< (- u z) 3)"
+        " (=> (<= (+ (* 2 x) w (* (- 3) v)) (- 4)) (<= (- y v) (- 4))) q)",
+        "(or (distinct (- v u) (- 4)) r (distinct (- u y) (- 3)))",
+    )
+    script = " ".join([*names, *(f"(assert {one})" for one in asserted), "(check-sat)"])
+    answered = run("qe", "decide", "-", "--format", "smtlib", "--check", stdin=script)
+    assert (answered.returncode, answered.stdout, answered.stderr) == (0, "sat\n", "checked\n")
