@@ -55,12 +55,16 @@ def needed(parts: Sequence[Formula]) -> tuple[Formula, ...]:
     for part in about_zeros:
         others = [other for other in kept if other is not part]
         if all(
-            truth_under(part, lambda poly: 0 if zero.intersection(poly.variables) else 1)  # noqa: B023
-            or any(truth_under(o, _signs(zero, names)) is False for o in others)
+            truth_under(part, _values_at(zero)) or any(truth_under(o, _signs(zero, names)) is False for o in others)
             for zero in patterns
         ):
             kept = others
     return tuple(kept)
+
+
+def _values_at(zero: Pattern) -> Callable[[Poly], int]:
+    """The sign of a monomial where these variables alone are zero, up to that of the others."""
+    return lambda poly: 0 if zero.intersection(poly.variables) else 1
 
 
 def _is_about_zeros(part: Formula) -> bool:

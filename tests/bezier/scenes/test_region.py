@@ -108,7 +108,7 @@ def test_squares_in_conditions_are_decided(text: str, blocked: bool) -> None:
 
 
 def test_what_small_cells_do_not_decide_is_soon_given_up() -> None:
-    """It took six times as long once cells lay along curves: which cells hang together was asked anew each time."""
+    """It took six times as long once cells lay along curves: now fewer of them are tried."""
     with pytest.raises(qe.Unable, match="undecided"):
         decided(read_scene({**SCENE, "obstacle": [formula("(x-5)^2*(y-3)^2 <= 1/10^20")]}), Budget(20))
 
