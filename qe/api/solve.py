@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from dataclasses import replace
 from functools import partial
 from typing import TYPE_CHECKING, Any, Unpack
@@ -67,7 +68,7 @@ def solve(formula: AnyFormula, variables: Any = None, **settings: Unpack[ProvedQ
 def _customary(names: tuple[str, ...]) -> tuple[str, ...] | None:
     """The variables that a formula is solved for when nobody says: x, y and z where there are others; None for all."""
     variables = tuple(name for name in names if name not in NUMBERS)
-    unknown = tuple(name for name in variables if name[0] in "xyz")
+    unknown = tuple(name for name in variables if re.fullmatch("[xyz]_?[0-9]*'*", name))
     if not unknown or len(unknown) == len(variables):
         return None if variables == names else variables
     warned([f"solved for {', '.join(unknown)}; variables= or --variables says otherwise"])

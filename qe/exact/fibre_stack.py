@@ -14,7 +14,7 @@ from dataclasses import dataclass
 from fractions import Fraction
 from operator import attrgetter
 from types import MappingProxyType
-from typing import Any, TypeAlias
+from typing import TypeAlias, overload
 
 from flint import arb, fmpq, fmpz_poly
 
@@ -118,7 +118,13 @@ class Samples(Sequence[Fraction]):
     def __len__(self) -> int:
         return len(self._ends) + 1
 
-    def __getitem__(self, k: Any) -> Any:
+    @overload
+    def __getitem__(self, k: int) -> Fraction: ...
+
+    @overload
+    def __getitem__(self, k: slice) -> tuple[Fraction, ...]: ...
+
+    def __getitem__(self, k: int | slice) -> Fraction | tuple[Fraction, ...]:
         return self.values[k]
 
     def __eq__(self, other: object) -> bool:

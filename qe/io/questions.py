@@ -10,13 +10,10 @@ import re
 from dataclasses import dataclass
 
 from qe.io.surface import FUNCTIONS
-from qe.io.text_words import COUNTS, LISTED, QUANTITY, SIGNED
+from qe.io.text_words import COUNTS, LISTED, NO_VARIABLES, QUANTITY, SIGNED, THERE
 from qe.spelling import KEYWORDS, WORD
 
-NO_NAMES = frozenset(
-    ("for", "every", "any", "some", "real", "reals", "number", "numbers", "such", "that", "with", "there", "is", "are")
-    + ("an", *SIGNED)
-)
+NO_NAMES = {*NO_VARIABLES, "for", "every", "any", "reals", "numbers", "such", "that", "with", "there", "is", "are"}
 """Words of sentences that are no variables."""
 
 LONGEST = 1000
@@ -89,7 +86,7 @@ _ALWAYS = re.compile(
     rf"(?:is\s+)?(.+?)\s+(?:is\s+)?(?:always\s+)?({_SIGN})(?:\s+(for\s+(?:all|every|any)\b.*))?", re.DOTALL
 )
 _BOUND = re.compile(
-    r"(?:[∃∀]|\b(?:[Ff]or\s+(?:all|every|any|some)|[Tt]here\s+(?:is|are|exists?)|ex|all|exists|forall|Ex|All|Exists|ForAll)\b)"
+    rf"(?:[∃∀]|\b(?:[Ff]or\s+(?:all|every|any|some)|{THERE}|ex|all|exists|forall|Ex|All|Exists|ForAll)\b)"
     rf"[\s(\[{{]*(?:(?:reals?|numbers?|an?|some|{_SIGN})\s+)*({_LIST})"
 )
 """The variables of a quantifier."""

@@ -80,9 +80,9 @@ def by_sum_and_product(body: Formula, i: int, j: int) -> Formula | None:
     rest = list(conjuncts(body))
     while rest:
         part = rest.pop(0)
-        images = {a: _in_new_terms(a, i, j) for a in atoms(part)}
-        if None not in images.values():
-            parts.append(map_atoms(part, lambda a, images=images: images[a] or a))  # type: ignore[misc]
+        images = {a: image for a in atoms(part) if (image := _in_new_terms(a, i, j)) is not None}
+        if images.keys() >= {*atoms(part)}:
+            parts.append(map_atoms(part, images.__getitem__))
             continue
         if not isinstance(part, Atom):
             return None

@@ -127,6 +127,7 @@ def test_without_variables_the_usual_unknowns_are_meant() -> None:
     with pytest.warns(qe.DoubtfulInput, match="solved for x; variables="):
         assert str(qe.solve("x^2 = a")) == "a >= 0 and (x = -sqrt(a) or x = sqrt(a))"
     assert qe.solve("a = b").order == ("a", "b") and qe.solve("y = x^2").order == ("y", "x")
+    assert qe.solve("zeta = a").order == ("zeta", "a")  # which only begins with such a letter
 
 
 @pytest.mark.parametrize(
