@@ -105,7 +105,7 @@ _FIRST = re.compile(
 )
 """What is given in front of an optimum that is asked for."""
 _SUBJECT = re.compile(
-    r"(?is)(.+?),?\s+(?:subject\s+to|s\.\s?t\.|such\s+that|given|where|when|for|with|over|on|if):?\s+(.+)"
+    r"(?is)(.+?),?\s+(?:subject\s+to|s\.\s?t\.|such\s+that|given|where|when|for|with|over|on|if(?!.*\bthen\b)):?\s+(.+)"
 )
 _INTERVAL = re.compile(r"\s*[\[(][^()\[\]<>=≤≥]*,[^()\[\]<>=≤≥]*[\])]\s*")
 _RELATED = re.compile(r"[<>=≤≥≠∈]")
@@ -219,6 +219,11 @@ def _equation(text: str, sought: tuple[str, ...], named: str | None) -> tuple[st
     return (text if "=" in text else f"{text} = 0"), name
 
 
+def _powers(equation: str, name: str) -> set[str]:
+    """The exponents of the variable, as they stand there."""
+    return {*re.findall(rf"{name}\s*(?:\^|\*\*)\s*\(?(\d+)", equation)}
+
+
 def _counted(text: str, sought: tuple[str, ...]) -> str | None:
     """``f has two positive roots in [0, 1]``; None for another text."""
     counted = _COUNTED.fullmatch(text)
@@ -233,11 +238,13 @@ def _counted(text: str, sought: tuple[str, ...]) -> str | None:
     if solved is None:
         return None
     equation, name = solved
+    degrees = _powers(equation, name)
+    if (many == "both" or opposite) and not degrees <= {"2"}:
+        return None
     if opposite:
         return f"(ex {name}. {equation} and {name} < 0) and (ex {name}. {equation} and {name} > 0)"
     if re.search("equal|double|repeated", kinds):  # of a quadratic polynomial
-        degrees = re.findall(rf"{name}\s*(?:\^|\*\*)\s*\(?(\d+)", equation)
-        return f"exactly one {name}. {equation}" if {*degrees} == {"2"} else None
+        return f"exactly one {name}. {equation}" if degrees == {"2"} else None
     signs = [f"{name} {SIGNED[word]} 0" for word in re.findall(_SIGN, kinds)]
     conditions = [condition for condition in (*signs, _place(name, place)) if condition]
     if many == "both":
@@ -253,7 +260,7 @@ def _separated(text: str, sought: tuple[str, ...]) -> str | None:
     """``f has one root smaller than 2 and the other greater than 2``; None for another text."""
     two = _SEPARATED.fullmatch(text)
     solved = _equation(two[1], sought, None) if two else None
-    if two is None or solved is None:
+    if two is None or solved is None or not _powers(*solved) <= {"2"}:
         return None
     equation, name = solved
     places = _place(name, list(two.groups()[1:6])), _place(name, list(two.groups()[6:]))

@@ -54,6 +54,8 @@ from qe.io.questions import plainly
         ("True or false: for all real x, x^2 > x", "false"),
         ("Let a > 0. Prove that x^2 + a > b for all x", "all a, b. a > 0 -> all x. x^2 + a > b"),
         ("x^3 + a has a double root", "x^3 + a has a double root"),
+        ("x^3 - x + a has both roots greater than 1", "x^3 - x + a has both roots greater than 1"),
+        ("x^4 = a has roots of opposite sign", "x^4 = a has roots of opposite sign"),
         ("the system x^2 = a has no solution", "the system x^2 = a has no solution"),
     ),
 )  # fmt: skip
