@@ -16,7 +16,7 @@ from qe.elimination.protocol import Outcome
 from qe.engine.conditions import CASES_FROM, case_count, hopeless_cases
 from qe.exact.number import Values
 from qe.formula.block import Block
-from qe.formula.build import conj, convert, exists
+from qe.formula.build import conj, exists
 from qe.formula.evaluate import substituted
 from qe.formula.syntax import FALSE, TRUE, Exists, Formula
 from qe.formula.traverse import atoms, conjuncts, connected
@@ -125,8 +125,7 @@ def _without(problem: Block, chosen: list[tuple[tuple[str, ...], list[Formula], 
         return None
     opened = Step(StepKind.GATHERING.value, problem.formula, nested)
     steps = (opened, *(step for _, _, shorter in chosen for step in shorter.steps))
-    ring = next(atoms(problem.body)).poly.ring  # methods may answer in that of their parameters alone
-    formula = exists(kept, conj((*rest, *(convert(shorter.answer, ring) for _, _, shorter in chosen))))
+    formula = exists(kept, conj((*rest, *(shorter.answer for _, _, shorter in chosen))))
     return WithoutLocals(formula, steps, tuple((names, conj(parts)) for names, parts, _ in chosen))
 
 
