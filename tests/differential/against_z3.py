@@ -84,7 +84,7 @@ def _block(seeds: list[str], out: Connection) -> None:
 
 
 def block(seeds: list[str]) -> tuple[Counter[str], list[str]]:
-    """How often each verdict came, and the seeds of wrong answers."""
+    """How often each verdict came, and the seeds of wrong answers and of an error of the engine."""
     receive, send = get_context("fork").Pipe(duplex=False)
     child = get_context("fork").Process(target=_block, args=(seeds, send))
     child.start()
@@ -97,7 +97,9 @@ def block(seeds: list[str]) -> tuple[Counter[str], list[str]]:
             counts[found] += 1
             wrong += [seed] if found == "wrong" else []
     except EOFError:
-        pass
+        child.join(60)
+        if child.exitcode == 1:  # an error of the engine; a signal would be one of z3
+            wrong.append(seeds[counts.total()])
     child.kill()
     child.join(60)
     counts["not reached"] = len(seeds) - counts.total()
