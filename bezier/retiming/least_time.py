@@ -76,7 +76,8 @@ class LeastTime:
     @property
     def lines(self) -> list[str]:
         """The time from both sides, then a line for each limit."""
-        above = f"at most {float(self.gap) * 100:.2g} % above the least"
+        share = float(self.gap) * 100
+        above = f"at most {share:.2g} % above the least" if share < 100 else f"at most {share:.0f} % above the least"
         there = " that rests where the parameter of the path stands still" if self.rests else ""
         times = f"{float(self.duration):.9g} s; every motion{there} takes at least {float(self.bound):.9g} s: {above}"
         places = (", ".join(f"{float(x):.6g}" for x in place) for place in self.rests)
