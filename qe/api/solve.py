@@ -29,7 +29,7 @@ from qe.proof.answer import UNPROVED, Answer, Guarantee, Status
 from qe.proof.certificate import Certificate
 from qe.proof.run_log import RunLog
 from qe.proving import certificates
-from qe.regions.by_value import cases_by_value
+from qe.regions.by_value import cases_by_value, effort
 from qe.regions.linear_systems import regular_case
 from qe.regions.solutions import Solutions
 from qe.regions.walk import MOST_POINTS, different_points
@@ -91,7 +91,7 @@ def _solutions(
         cases_by_value(region.table, len(region.order) - solved, budget, known),
         _by_determinant(given, known, region.order, solved, whole, budget),
     ):
-        if listed is not None and sum(map(len, listed)) <= sum(map(len, lines)):
+        if listed is not None and effort(listed) <= effort(lines):
             lines = listed
     region.limits = whole
     solutions = Solutions(region.order, cases, region, tuple(readable(line, region.order) for line in lines))

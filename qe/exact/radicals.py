@@ -1,4 +1,4 @@
-"""Text of a real algebraic number: exact, as radicals where degree 2, two terms or even powers allow, or brief."""
+"""Text of a real algebraic number: exact, as radicals where degree 2 or powers of one number allow, or brief."""
 
 from __future__ import annotations
 
@@ -27,15 +27,20 @@ def format_number(a: RealAlgebraic) -> str:
 
 
 def radical_text(a: object) -> str:
-    """The same, and an n-th root of a fraction where the polynomial has two terms; all else as it prints itself."""
+    """The same, and an n-th root where the polynomial has two terms, or c2*x^(2*n) + c1*x^n + c0; all else as it
+    prints itself."""
     if not isinstance(a, RealAlgebraic):
         return str(a)
-    c = a.minimal_polynomial
-    if a.degree < 3 or any(c[1:-1]):
+    c, half, n = a.minimal_polynomial, a.degree // 2, a.degree
+    if n < 3 or any(c[k] for k in range(1, n) if 2 * k != n or n == 4):
         return format_number(a)
-    sign, radicand = "-" if a.sign() < 0 else "", Fraction(abs(c[0]), c[-1])
-    base = radicand if radicand.denominator == 1 else f"({radicand})"
-    return f"{sign}cbrt({radicand})" if a.degree == 3 else f"{sign}{base}^(1/{a.degree})"
+    sign, radicand = "-" if a.sign() < 0 else "", str(Fraction(abs(c[0]), c[-1]))
+    if n % 2 == 0 and c[half]:  # |x|^half is a root of a polynomial of degree 2, one for each sign of x
+        n, sides = half, (fmpz_poly([c[0], k * c[half], c[-1]]) for k in (1 - 2 * (half % 2), 1))
+        negative, positive = ([u for u in irreducible_roots(side) if u.sign() > 0] for side in sides)
+        radicand = str((negative[::-1] + positive)[a.index])
+    base = radicand if radicand.isdecimal() else f"({radicand})"
+    return f"{sign}cbrt({radicand})" if n == 3 else f"{sign}{base}^(1/{n})"
 
 
 def _biquadratic(a: RealAlgebraic) -> str | None:

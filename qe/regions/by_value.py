@@ -10,8 +10,9 @@ Cells over which the same is said are put together, and the condition that it ho
 
 from __future__ import annotations
 
+import re
 from collections import Counter, defaultdict
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from fractions import Fraction
 from functools import cache, partial, reduce
@@ -42,6 +43,10 @@ MOST_CELLS = 2_000
 
 MOST_CONJUGATES = 16
 """Coordinates of a point of at most so many conjugates are written as numbers."""
+
+TERM = 15
+"""So many characters more may a number have than a term in other variables, or ``root``, that has the same value."""
+_SIDE = re.compile(r"= ((?:(?! and | or )[^\n])*)")
 
 
 def cases_by_value(table: CellTable, parameters: int, budget: Budget, known: Formula = TRUE) -> list[str] | None:
@@ -287,6 +292,13 @@ def _runs(cells: Sequence[Cell]) -> Iterator[tuple[int, int]]:
             yield from ((k, k) for k in places if any_true(cells[k]))
 
 
+def effort(texts: Iterable[str]) -> int:
+    """Characters, and ``TERM`` for each equation whose right side is not a number written out."""
+    lines = list(texts)
+    sides = (side for line in lines for side in _SIDE.findall(line))
+    return sum(map(len, lines)) + TERM * sum(re.search(r"\b(?!sqrt|cbrt)[^\W\d]", side) is not None for side in sides)
+
+
 def _cover(found: Mapping[tuple[int, tuple[int, ...]], set[Terms]]) -> list[Terms]:
     """Few and short terms that are all solutions."""
     where: dict[Terms, set[tuple[int, tuple[int, ...]]]] = {}
@@ -295,9 +307,7 @@ def _cover(found: Mapping[tuple[int, tuple[int, ...]], set[Terms]]) -> list[Term
             where.setdefault(terms, set()).add(solution)
     uncovered, chosen = set(found), []
     while uncovered:
-        best = min(
-            where, key=lambda terms: (-len(where[terms] & uncovered), sum(map(len, terms)), min(where[terms]), terms)
-        )
+        best = min(where, key=lambda terms: (-len(where[terms] & uncovered), effort(terms), min(where[terms]), terms))
         chosen.append(best)
         uncovered -= where[best]
     return sorted(

@@ -16,7 +16,7 @@ from qe.errors import InputError
 from qe.exact.algebraic import RealAlgebraic, real_roots
 from qe.exact.field import FieldElement, NumberField
 from qe.exact.number import optimum_in_latex, point_text, simplest, square_root
-from qe.exact.radicals import format_number
+from qe.exact.radicals import format_number, radical_text
 from qe.exact.ring import Ring, format_poly
 from qe.exact.sparse_text import digits, sparse_text
 from tests.strategies import rationals
@@ -98,6 +98,24 @@ def test_biquadratic_numbers_mean_what_they_were(a: int, b: int, c: int, shift: 
             assert qe.decide(f"ex x. x = {text} and {minimal} = 0")
         elif root.degree == 4:
             pytest.fail(f"{text} has degree 4 and is biquadratic")
+
+
+@each(
+    ([-1, 0, 0, -1, 0, 0, 1], ["-cbrt((-1 + sqrt(5))/2)", "cbrt((1 + sqrt(5))/2)"]),
+    ([1, 0, 0, -3, 0, 0, 1], ["cbrt((3 - sqrt(5))/2)", "cbrt((3 + sqrt(5))/2)"]),
+    ([-1, 0, 0, 0, -1, 0, 0, 0, 1], ["-((1 + sqrt(5))/2)^(1/4)", "((1 + sqrt(5))/2)^(1/4)"]),
+    ([-5, 0, 0, 0, 1], ["-5^(1/4)", "5^(1/4)"]),
+)
+def test_roots_of_numbers_of_degree_two(coefficients: list[int], texts: list[str]) -> None:
+    assert [radical_text(r) for r in sorted(real_roots(fmpz_poly(coefficients)))] == texts
+
+
+@given(st.integers(2, 7), st.integers(-9, 9).filter(bool), st.integers(-9, 9), st.integers(1, 5))
+def test_polynomials_of_degree_two_in_a_power_have_radicals(n: int, c: int, b: int, a: int) -> None:
+    for root in real_roots(a * (power := fmpz_poly([0] * n + [1])) ** 2 + b * power + c):
+        text = radical_text(root)
+        assert "root(" not in text
+        assert qe.find_instance(f"x = {text}")["x"] == root
 
 
 @given(st.integers(-(10**30), 10**30))

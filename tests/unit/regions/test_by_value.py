@@ -48,7 +48,7 @@ EXPECTED = (
         "s^2 - 4*p >= 0 and (x = (s - sqrt(s^2 - 4*p))/2 and y = s - x or x = (s + sqrt(s^2 - 4*p))/2 and y = s - x)",
     ),
     ("x^2 + y^2 = 1", None, "-1 <= x <= 1 and (y = -sqrt(1 - x^2) or y = sqrt(1 - x^2))"),
-    ("x^2 + y^2 = 1 and x = y", None, "x = -sqrt(2)/2 and y = x or x = sqrt(2)/2 and y = x"),
+    ("x^2 + y^2 = 1 and x = y", None, "x = -sqrt(2)/2 and y = -sqrt(2)/2 or x = sqrt(2)/2 and y = sqrt(2)/2"),
     # root(1, x^4 + 2*x^3*y + …, y)
     ("x^2 + y^2 + z^2 = 1 and x + y + z = sqrt(3)", None, "x = sqrt(3)/3 and y = sqrt(3)/3 and z = sqrt(3)/3"),
     ("x^3 = 2 and y^2 = x", None, "x = cbrt(2) and (y = -2^(1/6) or y = 2^(1/6))"),
@@ -60,6 +60,18 @@ EXPECTED = (
     ("x^2 = a^2", "x", "x = -a or x = a"),
     ("x^4 - 5*x^2 + 4 = 0", None, "x = -2 or x = -1 or x = 1 or x = 2"),
     ("x^4 - 4*x^2 + 2 < 0 and x > 0", None, "sqrt(2 - sqrt(2)) < x < sqrt(2 + sqrt(2))"),
+    (
+        "x + y = 3 and x*y = 1",
+        None,
+        "x = (3 - sqrt(5))/2 and y = (3 + sqrt(5))/2 or x = (3 + sqrt(5))/2 and y = (3 - sqrt(5))/2",
+    ),
+    # y = x^2, which is left to the reader; root(1, x^4 + x^2 - 4)
+    (
+        "x^2 + y^2 = 4 and y = x^2",
+        None,
+        "x = -sqrt((-1 + sqrt(17))/2) and y = (-1 + sqrt(17))/2 or "
+        "x = sqrt((-1 + sqrt(17))/2) and y = (-1 + sqrt(17))/2",
+    ),
     ("x^3 = -2/3 or x^6 = 5 and x > 0", None, "x = -cbrt(2/3) or x = 5^(1/6)"),
     ("x^2 + y^2 = r^2 and y = m*x", "x, y", "x = -r/sqrt(m^2 + 1) and y = m*x or x = r/sqrt(m^2 + 1) and y = m*x"),
     ("y = x^2 and y = c", "x, y", "c >= 0 and (x = -sqrt(c) and y = c or x = sqrt(c) and y = c)"),

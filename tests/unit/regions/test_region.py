@@ -81,7 +81,7 @@ def test_points_of_a_plane() -> None:
 
 @each(
     ("x^2 = 2", None, ["x = -sqrt(2)", "x = sqrt(2)"]),
-    ("x^2 + y^2 = 1 and x = y", "x y", ["x = -sqrt(2)/2 and y = x", "x = sqrt(2)/2 and y = x"]),
+    ("x^2 + y^2 = 1 and x = y", "x y", ["x = -sqrt(2)/2 and y = -sqrt(2)/2", "x = sqrt(2)/2 and y = sqrt(2)/2"]),
     ("a*x < b", "x", ["a < 0 and x > b/a", "a = 0 and b > 0", "a > 0 and x < b/a"]),
     ("x^2 + y^2 <= 1", ("x", "y"), ["-1 <= x <= 1 and -sqrt(1 - x^2) <= y <= sqrt(1 - x^2)"]),
     ("y^3 = x", "y", ["y = cbrt(x)"]),
