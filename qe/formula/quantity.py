@@ -17,7 +17,7 @@ from itertools import pairwise
 from qe.formula.build import atom, conj, disj, exists, forall, implies, neg
 from qe.formula.normal import nnf
 from qe.formula.openness import thinned
-from qe.formula.syntax import TRUE, Exists, Formula, Relation
+from qe.formula.syntax import TRUE, Formula, Relation
 from qe.formula.traverse import has_root_atoms, map_atoms
 
 MOST = 20
@@ -52,12 +52,17 @@ def almost_all(name: str, body: Formula, spare: list[str]) -> Formula:
 
 def at_least(k: int, name: str, body: Formula, spare: list[str]) -> Formula:
     """That k different values satisfy the body; ``spare``: k names."""
-    ring = body.ring
-    if k == 0 or ring is None or name not in body.free:
+    if k == 0 or name not in body.free:
         return body if k else TRUE
-    values = [ring.var(n) for n in spare[:k]]
-    ordered = [atom(low - high, Relation.LT) for low, high in pairwise(values)]
-    return exists(spare[:k], conj((*ordered, *(at(body, name, n) for n in spare[:k]))))
+    return exists(spare[:k], _rising(name, body, spare[:k]))
+
+
+def _rising(name: str, body: Formula, values: list[str]) -> Formula:
+    """That the body holds at all of these values, each less than the next."""
+    ring = body.ring
+    assert ring is not None
+    ordered = [atom(ring.var(low) - ring.var(high), Relation.LT) for low, high in pairwise(values)]
+    return conj((*ordered, *(at(body, name, value) for value in values)))
 
 
 def exactly(k: int, name: str, body: Formula, denied: Formula, spare: list[str]) -> Formula:
@@ -66,11 +71,10 @@ def exactly(k: int, name: str, body: Formula, denied: Formula, spare: list[str])
     if k == 0 or name not in body.free:
         nothing = forall((name,), neg(denied))
         return nothing if k == 0 else conj((nothing, body))
-    ring, some = body.ring, at_least(k, name, body, spare)
-    assert ring is not None and isinstance(some, Exists)
-    x, values = ring.var(name), [ring.var(n) for n in spare[:k]]
-    others = forall((name,), implies(denied, disj(atom(x - value, Relation.EQ) for value in values)))
-    return exists(spare[:k], conj((some.body, others)))
+    ring = body.ring
+    assert ring is not None
+    same = disj(atom(ring.var(name) - ring.var(value), Relation.EQ) for value in spare[:k])
+    return exists(spare[:k], conj((_rising(name, body, spare[:k]), forall((name,), implies(denied, same)))))
 
 
 def connected(name: str, body: Formula, denied: Formula, spare: list[str]) -> Formula:

@@ -254,3 +254,14 @@ def test_conditions_of_a_local_variable_that_is_projected_join_the_others() -> N
     script = " ".join([*names, *(f"(assert {one})" for one in asserted), "(check-sat)"])
     answered = run("qe", "decide", "-", "--format", "smtlib", "--check", stdin=script)
     assert (answered.returncode, answered.stdout, answered.stderr) == (0, "sat\n", "checked\n")
+
+
+@each(
+    ("exactly one x. ex y. y = a and y = x^2", "a = 0"),
+    ("exactly one x. ex y, z. y + z = a and y*y = x and z = y", "true"),
+    ("exactly one x. all y. x*y <= a + y and x >= 1", "a >= 0"),
+    ("exactly 2 x. ex y. y = a and y = x^2", "a > 0"),
+)
+def test_exactly_one_value_of_what_has_a_quantifier_of_its_own(given: str, said: str) -> None:
+    """The quantifier behind ``exactly one x`` joined that of the value and was lost with it: ``a = 0 and y = 0``."""
+    assert equivalent(given, said)
