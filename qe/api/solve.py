@@ -37,6 +37,7 @@ from qe.spelling import NUMBERS
 
 if TYPE_CHECKING:
     from qe.elimination.vs.parametric import ParametricWitnesses
+    from qe.regions.region import Region
 
 TEXT_WORK, TABLE_WORK = 20_000, 4_000
 """Units of work for the proof that a text of solutions says the same as the formula; for one from one decomposition."""
@@ -87,11 +88,12 @@ def _solutions(
     region = region_of(given, order, replace(whole, process=False), check, budget)
     cases = tuple(region.cells)
     lines = [str(case) for case in cases]
+    names = region.order[len(region.order) - solved :]
     for listed in (
-        cases_by_value(region.table, len(region.order) - solved, budget, known),
+        _by_value(region, solved, known, budget),
         _by_determinant(given, known, region.order, solved, whole, budget),
     ):
-        if listed is not None and effort(listed) <= effort(lines):
+        if listed is not None and effort(listed, names) <= effort(lines, names):
             lines = listed
     region.limits = whole
     solutions = Solutions(region.order, cases, region, tuple(readable(line, region.order) for line in lines))
@@ -107,8 +109,14 @@ def _by_determinant(
         return None
     line, singular = regular
     region = region_of(singular, tuple(order), replace(whole, process=False), False, budget)
-    cases = cases_by_value(region.table, len(order) - solved, budget, known)
+    cases = _by_value(region, solved, known, budget)
     return None if cases is None else [line, *(case for case in cases if case != "false")]
+
+
+def _by_value(region: Region, solved: int, known: Formula, budget: Budget) -> list[str] | None:
+    """The cases by value as texts; None where there are too many cells."""
+    cases = cases_by_value(region.table, len(region.order) - solved, budget, known)
+    return None if cases is None else [line for case in cases for line in case.lines]
 
 
 def _compared(solutions: Solutions, given: Formula, known: Formula, budget: Budget) -> Answer:

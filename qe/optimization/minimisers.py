@@ -1,11 +1,11 @@
 """Where an optimum with parameters is attained: the points, as functions of the parameters.
 
 Let W(p, v) be the values v that are taken at the parameters p, and let the least (or greatest) ones that are attained
-be roots of polynomials q(p, v). THEOREM. In a decomposition for W, q and E(p, x): x in S and q(p, f(x)) = 0, with the
-variables in the order p, v, x, let C be a cell of (p, x) where E holds, over a cell of p. The real roots of q are
-continuous functions over the cell of p and nowhere meet, and f is continuous, so f(x) is the same one of them all over
-C: either all points of C have the optimum or none does. Likewise the same root of q is the optimum all over the cell of
-p. So one sample of each cell tells.
+be roots of polynomials q(p, v) that are not zero for every v. THEOREM. In a decomposition for W, q and E(p, x): x in S
+and q(p, f(x)) = 0 for a q that is not zero at p for every v, with the variables in the order p, v, x, let C be a cell
+of (p, x) where E holds, over a cell of p. The real roots of these q are continuous functions over the cell of p and
+nowhere meet, and f is continuous, so f(x) is the same one of them all over C: either all points of C have the optimum
+or none does. Likewise the same root is the optimum all over the cell of p. So one sample of each cell tells.
 
 For an objective that is no polynomial the graph v = f(x) is one of the conditions that the decomposition is for, and
 its cells of (p, v, x) are cells of the graph.
@@ -14,12 +14,12 @@ its cells of (p, v, x) are cells of the graph.
 from __future__ import annotations
 
 from dataclasses import replace
+from enum import Enum
 from fractions import Fraction
 
 from qe.decomposition.decompose import decompose
 from qe.decomposition.formulas import construct
 from qe.decomposition.matrix import Node, compile_matrix, specialise
-from qe.decomposition.pieces import Piece, merge
 from qe.decomposition.sampled_cells import Place, child, rational, root_place
 from qe.engine.run import solve
 from qe.errors import BudgetExceeded, Unable
@@ -27,7 +27,7 @@ from qe.exact.ring import Poly, Ring
 from qe.exact.sample import Point
 from qe.formula.build import atom, conj, convert, disj, exists, forall, implies
 from qe.formula.evaluate import truth_under
-from qe.formula.syntax import FALSE, Formula, Relation
+from qe.formula.syntax import FALSE, TRUE, Formula, Relation
 from qe.io.substitution import over_one_ring, substitute
 from qe.io.surface import Name
 from qe.optimization.values import Goal, new_name
@@ -50,7 +50,7 @@ def minimisers(goal: Goal, taken: Formula, table: CellTable, sign: int, budget: 
         raise Unable("the signs do not decide which value is the end")
 
     try:
-        end = construct(_only_ends(table, sign), refined)[0]
+        end = construct(ends(table, sign, End.ATTAINED), refined)[0]
     except Unable:
         other = new_name(goal.ring.names)
         others = substitute(taken, {goal.value: Name(other, -1)})
@@ -63,48 +63,66 @@ def minimisers(goal: Goal, taken: Formula, table: CellTable, sign: int, budget: 
     return solve(having, Options(), budget).formula if end.is_quantifier_free else having
 
 
-def points(goal: Goal, taken: Formula, roots: list[Poly], sign: int, budget: Budget) -> list[Piece] | None:
-    """The pieces of the points that have the optimum, over the parameters, the value and the variables.
+def points(goal: Goal, taken: Formula, roots: list[Poly], sign: int, budget: Budget) -> CellTable | None:
+    """The cells of the points that have the optimum, over the parameters, the value and the variables.
 
-    ``roots``: polynomials in the parameters and the value; every attained optimum is a root of one. None where the
-    pieces are more work than ``MOST_WORK``.
+    ``roots``: polynomials in the parameters and the value; every attained optimum is a root of one that is not zero for
+    every value. None where the cells are more work than ``MOST_WORK``.
     """
-    ends = disj(atom(q.convert(goal.ring), Relation.EQ) for q in roots)
-    having = exists((goal.value,), conj((goal.conditions, goal.graph, ends)))
+    roots_of = disj(_is_root(q.convert(goal.ring), goal.ring.names.index(goal.value), budget) for q in roots)
+    having = exists((goal.value,), conj((goal.conditions, goal.graph, roots_of)))
     part = budget.part(MOST_WORK)
     try:
         place = solve(having, Options(), part).formula
-        if place == FALSE:
-            return []
         order = (*goal.parameters, goal.value, *goal.variables)
         ring = Ring.of(order)
-        values, ends, place, graph = (convert(f, ring) for f in (taken, ends, place, goal.graph))
-        known = (values, ends, place) if goal.polynomial is not None else (values, ends, place, graph)
+        values, roots_of, place, graph = (convert(f, ring) for f in (taken, roots_of, place, goal.graph))
+        known = (values, roots_of, place) if goal.polynomial is not None else (values, roots_of, place, graph)
         table = decompose(conj(known), order, ("",) * len(order), budget=part).table
-        root = _Labels(table, goal.value, values, graph, sign, part).of(root_place(table))
-        return merge(replace(table, root=root), budget=part)
+        return replace(table, root=_Labels(table, goal.value, values, graph, sign, part).of(root_place(table)))
     except Unable as error:
         if isinstance(error, BudgetExceeded):
             budget.check("minimisers")
         return None
 
 
-def _only_ends(table: CellTable, sign: int) -> CellTable:
-    """True on the cells of the least (or greatest) value that is taken, over each cell of the parameters."""
-    depth = len(table.order) - 1
+def _is_root(q: Poly, variable: int, budget: Budget) -> Formula:
+    """That q is zero, and not for every value of the variable."""
+    coefficients = [c for c in q.coefficients(variable) if c]
+    names = [q.ring.names[i] for i in q.variables]
+    vanishes = exists(names, conj(atom(c, Relation.EQ) for c in coefficients))
+    somewhere = solve(vanishes, Options(), budget).formula != FALSE
+    nonzero = disj(atom(c, Relation.NE) for c in coefficients) if somewhere else TRUE
+    return conj((atom(q, Relation.EQ), nonzero))
 
-    def ends(cell: Cell, level: int) -> Cell:
-        if cell.stack is None:  # any value is taken, or none
-            return replace(cell, truth=False)
-        if level < depth:
-            cells = tuple(ends(c, level + 1) for c in cell.stack.cells)
+
+class End(Enum):
+    """What an optimum is."""
+
+    ATTAINED = "attained"
+    APPROACHED = "approached"
+    UNBOUNDED = "unbounded"
+
+
+def ends(table: CellTable, sign: int, wanted: End) -> CellTable:
+    """Over the cells of the parameters where the least (or greatest) value is as wanted: true there alone, or at all
+    values where it is unbounded. ``table``: the values that are taken."""
+
+    def of(cell: Cell, level: int) -> Cell:
+        if cell.stack is None:
+            return replace(cell, truth=cell.truth is True and wanted is End.UNBOUNDED)
+        cells = cell.stack.cells
+        if level:
+            cells = tuple(of(c, level - 1) for c in cells)
         else:
-            taken = [k for k, c in enumerate(cell.stack.cells) if c.truth]
-            end = taken[0 if sign > 0 else -1] if taken else 0  # a sector has no least value
-            cells = tuple(replace(c, truth=k == end and k % 2 == 1) for k, c in enumerate(cell.stack.cells))
+            taken = next((k for k, c in enumerate(cells[::sign]) if c.truth), None)
+            kind = End.UNBOUNDED if not taken else End.ATTAINED if taken % 2 else End.APPROACHED
+            end = None if taken is None or kind is not wanted else taken - (kind is End.APPROACHED)
+            true = (end is not None and (k == end or kind is End.UNBOUNDED) for k in range(len(cells)))
+            cells = tuple(replace(c, truth=t) for c, t in zip(cells[::sign], true, strict=True))[::sign]
         return replace(cell, stack=replace(cell.stack, cells=cells))
 
-    return replace(table, root=ends(table.root, 0))
+    return replace(table, root=of(table.root, len(table.order) - 1))
 
 
 class _Labels:

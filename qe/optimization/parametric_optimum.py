@@ -8,6 +8,7 @@ from dataclasses import dataclass, field, replace
 from fractions import Fraction
 from functools import partial
 from itertools import groupby
+from typing import NamedTuple
 
 from qe.arguments import by_name, flag, seconds, whole
 from qe.decomposition.decompose import decompose
@@ -20,9 +21,10 @@ from qe.errors import InputError
 from qe.exact.number import Number, simplest
 from qe.formula.build import conj, convert, exists
 from qe.formula.syntax import FALSE, Formula
-from qe.optimization import written
+from qe.io.latex import name as name_in_latex
+from qe.io.latex_text import formula_in_latex, term_in_latex
 from qe.optimization.global_optimum import GlobalOptimum, attained_by, number_conditions
-from qe.optimization.minimisers import minimisers, points
+from qe.optimization.minimisers import End, ends, minimisers, points
 from qe.optimization.values import Goal, first_answer, with_proof
 from qe.options import Budget, Options
 from qe.processes.execution import perform
@@ -31,6 +33,8 @@ from qe.proof.answer import Answer, Guarantee
 from qe.proof.cells import Cell, CellTable
 from qe.proof.certificate import Certificate
 from qe.proof.multipliers import OptimumStatus
+from qe.regions.by_value import cases_by_value, effort
+from qe.regions.parameter_conditions import Terms, both
 from qe.services import SymPyForm
 from qe.spelling import NUMBERS, quoted
 
@@ -56,35 +60,66 @@ class Case:
         return f"<{self}>"
 
     def __str__(self) -> str:
-        where = _said(self.ranges)
-        what = "unbounded" if self.value is None else f"{self.value}{'' if self.attained else ' (not attained)'}"
-        if self.minimisers:
-            what += f" at {' or '.join(_said(place) or f'any {_names(place)}' for place in self.minimisers)}"
-        return f"{what} if {where}" if where else what
+        return str(self.stated)
+
+    @property
+    def stated(self) -> Stated:
+        """The case as texts."""
+        points = [
+            _said(place) or (f"any {', '.join(quoted(r.variable) for r in place)}",) for place in self.minimisers or ()
+        ]
+        return Stated(None if self.value is None else str(self.value), self.attained, points, _said(self.ranges))
 
 
-def _names(place: Place) -> str:
-    return ", ".join(quoted(r.variable) for r in place)
-
-
-def _said(place: Place) -> str:
+def _said(place: Place) -> Terms:
     """The ranges that say something."""
-    return ", ".join(str(r) for r in place if r.is_bounded)
+    return tuple(str(r) for r in place if r.is_bounded)
+
+
+class Stated(NamedTuple):
+    """A case as texts: where ``conditions`` hold the optimum is ``value`` (None: unbounded), at all ``points``."""
+
+    value: str | None
+    attained: bool
+    points: Sequence[Terms]
+    conditions: Terms
+
+    def __str__(self) -> str:
+        what = "unbounded" if self.value is None else f"{self.value}{'' if self.attained else ' (not attained)'}"
+        at = f" at {' or '.join(map(', '.join, self.points))}" if self.points else ""
+        return f"{what}{at} if {', '.join(self.conditions)}" if self.conditions else what + at
+
+    def to_latex(self) -> str:
+        """A line of ``cases``."""
+        what = r"\text{unbounded}" if self.value is None else term_in_latex(self.value)
+        note = "" if self.attained or self.value is None else r"\ (\text{not attained})"
+        where = r" \lor ".join(", ".join(map(_in_latex, point)) for point in self.points)
+        at = rf"\ \text{{at}}\ {where}" if where else ""
+        return f"{what}{note}{at} & {', '.join(map(formula_in_latex, self.conditions))}"
+
+
+def _in_latex(said: str) -> str:
+    """What is said of a variable, or that some have any value."""
+    if said.startswith("any "):
+        return r",\,".join(map(name_in_latex, said.removeprefix("any ").split(", "))) + r" \in \mathbb{R}"
+    return formula_in_latex(said)
 
 
 @dataclass(frozen=True, slots=True, repr=False)
 class ParametricOptimum(SymPyForm):
-    """The minimum or maximum as a function of the parameters: ``cases`` with disjoint conditions.
+    """The minimum or maximum as a function of the parameters: ``cases`` with disjoint conditions; ``stated``: each
+    value once with its points and the condition under which they have it, as texts, where that is shorter.
 
     Where no case applies, no point meets the constraints. ``at`` gives the optimum at numbers. ``minimisers``: holds
     at exactly the parameters and points where the optimum is attained. ``values``: the values that are taken, a formula
     of ``variable`` and the parameters. ``certificate``: of the elimination and of the cells that the values and their
     ends are read from, not of the minimisers; None where it had none. ``answer``: how the values were found.
-    ``guarantee``, ``reason``: with ``check``, as in ``GlobalOptimum``. ``str`` writes one case a line; ``to_json`` and
-    ``to_latex`` write all cases; in SymPy it is a ``Piecewise``.
+    ``guarantee``, ``reason``: with ``check``, as in ``GlobalOptimum``. ``str`` and ``to_latex`` write
+    what is ``stated``, ``to_json`` all cases; in SymPy it is a ``Piecewise``.
     """
 
     cases: tuple[Case, ...]
+    stated: tuple[Stated, ...]
     parameters: tuple[str, ...]
     values: Formula
     variable: str
@@ -102,8 +137,8 @@ class ParametricOptimum(SymPyForm):
         """For each case the value, or infinity with its sign, and the condition under which it is the optimum."""
         none = "-infinity" if self._sign > 0 else "infinity"
         return [
-            (str(case.value or none), " and ".join(str(r) for r in case.ranges if r.is_bounded) or "true")
-            for case in self.cases
+            (case.value or none, both(*((part, " or " in part) for part in case.conditions)) or "true")
+            for case in self.stated
         ]
 
     def __iter__(self) -> Iterator[Case]:
@@ -117,7 +152,7 @@ class ParametricOptimum(SymPyForm):
         return f"ParametricOptimum({', '.join(self.parameters)}: {count} case{'s' if count != 1 else ''})"
 
     def __str__(self) -> str:
-        return "\n".join(map(str, self.cases)) or "no point meets the constraints"
+        return "\n".join(map(str, self.stated)) or "no point meets the constraints"
 
     def at(
         self, parameters: Mapping[str, Coordinate], *, timeout: float | None = None, process: bool = True
@@ -163,7 +198,8 @@ class ParametricOptimum(SymPyForm):
 
     def to_latex(self) -> str:
         """The function by cases, for math mode."""
-        return written.to_latex([(c.ranges, c.value, c.attained, c.minimisers or ()) for c in self.cases])
+        lines = " \\\\\n".join(one.to_latex() for one in self.stated) or r"\text{no point meets the constraints} &"
+        return f"\\begin{{cases}}\n{lines}\n\\end{{cases}}"
 
     def _repr_latex_(self) -> str:
         return f"$\\displaystyle {self.to_latex()}$"
@@ -181,19 +217,23 @@ def optimum_of(sign: int, goal: Goal, *, budget: Budget | None = None, check: bo
     taken = values.formula
     order = (*goal.parameters, goal.value)
     table = decompose(taken, order, ("",) * len(order), budget=limits).table
-    ends = replace(table, root=_closed(table.root, len(order), sign))
-    cases = list(_by_value(merge(ends, budget=limits), sign))
+    closed = replace(table, root=_closed(table.root, len(order), sign))
+    cases = list(_by_value(merge(closed, budget=limits), sign))
     roots = list(dict.fromkeys(case.value.poly for _, case in cases if case.value is not None and case.attained))
-    if goal.variables:
-        pieces = points(goal, taken, roots, sign, limits)
-        if pieces is None:
+    attained = None
+    if goal.variables and roots:
+        attained = points(goal, taken, roots, sign, limits)
+        if attained is None:
             cases = [(at, replace(case, minimisers=None if case.attained else ())) for at, case in cases]
         else:
             cases = [(at, case) for at, case in cases if not case.attained]
-            cases += _with_points(pieces, len(goal.parameters))
+            cases += _with_points(merge(attained, budget=limits), len(goal.parameters))
             cases.sort(key=lambda pair: pair[0])
+    listed = _for_numbers([case for _, case in cases], goal.parameters)
+    kinds = {end: ends(table, sign, end) for end in End}
     optimum = ParametricOptimum(
-        cases=_for_numbers([case for _, case in cases], goal.parameters),
+        cases=listed,
+        stated=_stated(listed, kinds if attained is None else {**kinds, End.ATTAINED: attained}, goal, limits),
         parameters=goal.parameters,
         values=taken,
         variable=goal.value,
@@ -235,6 +275,37 @@ def _with_points(pieces: Iterable[Piece], size: int) -> Iterator[tuple[Number, C
         places = list(stack)
         points = tuple(piece.ranges[size + 1 :] for piece in places)
         yield _place(places[0]), Case(ranges[:-1], ranges[-1].lower, True, points)
+
+
+def _stated(cases: Sequence[Case], tables: Mapping[End, CellTable], goal: Goal, budget: Budget) -> tuple[Stated, ...]:
+    """The cases as texts: each value and its points once, if that is possible and not longer."""
+    plain, size = tuple(case.stated for case in cases), len(goal.parameters)
+    said: list[tuple[Number, Stated]] = []
+    for end, table in tables.items():
+        for case in cases_by_value(table, size, budget) or ():
+            if case.base.depth > size or _numbers(goal.parameters):
+                return plain
+            where, first = (
+                (case.condition,) if case.condition else (),
+                case.base.point.number(0) if case.base.depth else Fraction(0),
+            )
+            for value, same in groupby(case.terms, key=lambda terms: terms[:1]):
+                points = [
+                    _all_said(terms[1:], goal.variables)
+                    for terms in same
+                    if goal.variables and len(table.order) > size + 1
+                ]
+                number = "".join(value).removeprefix(f"{quoted(goal.value)} = ") if value else None
+                said.append((first, Stated(number, end is End.ATTAINED, points, where)))
+    by_value = tuple(one for _, one in sorted(said, key=lambda pair: pair[0]))
+    texts = [[str(one) for one in some] for some in (by_value, plain)]
+    return by_value if effort(texts[0], goal.variables) <= effort(texts[1], goal.variables) else plain
+
+
+def _all_said(terms: Terms, variables: Sequence[str]) -> Terms:
+    """What is said of the variables, and that the others have any value."""
+    rest = ", ".join(map(quoted, variables[len(terms) :]))
+    return (*terms, f"any {rest}") if rest else terms
 
 
 def _for_numbers(cases: list[Case], parameters: Sequence[str]) -> tuple[Case, ...]:

@@ -19,6 +19,7 @@ from functools import cache, partial, reduce
 from itertools import groupby, product
 from math import prod
 from operator import mul
+from typing import NamedTuple
 
 from qe.decomposition.pieces import RootFunction, Sections, range_text
 from qe.decomposition.radicals import radicals
@@ -45,18 +46,38 @@ MOST_CONJUGATES = 16
 """Coordinates of a point of at most so many conjugates are written as numbers."""
 
 TERM = 15
-"""So many characters more may a number have than a term in other variables, or ``root``, that has the same value."""
-_SIDE = re.compile(r"= ((?:(?! and | or )[^\n])*)")
+"""So many characters more may a value have than a term in other variables that are solved for, or ``root``."""
+_SIDE = re.compile(r"= ((?:(?! and | or | if |, )[^\n])*)")
 
 
-def cases_by_value(table: CellTable, parameters: int, budget: Budget, known: Formula = TRUE) -> list[str] | None:
-    """The cases as texts, with ``or`` between them a formula for the true cells of a table without quantifiers.
+class Conditioned(NamedTuple):
+    """What is said of the variables under a condition, a text, perhaps a disjunction; each of ``terms`` is solutions.
+    ``base``: the first cell of the parameters where it holds."""
+
+    base: Place
+    condition: str
+    is_or: bool
+    terms: list[Terms]
+
+    @property
+    def lines(self) -> list[str]:
+        """Cases as texts; what is said of the first variable is said once."""
+        parts = parts_of(self.terms)
+        if not (self.condition and parts):
+            return parts or [self.condition or "true"]
+        return [both((self.condition, self.is_or), (" or ".join(parts), len(parts) > 1))]
+
+
+def cases_by_value(
+    table: CellTable, parameters: int, budget: Budget, known: Formula = TRUE
+) -> list[Conditioned] | None:
+    """The cases, with ``or`` between their lines a formula for the true cells of a table without quantifiers.
 
     ``parameters``: how many variables are not solved for; ``known``: what the conditions on them need not say. Where a
     variable before the last has neither finitely many values nor all, it is a parameter, too. None where there are too
     many cells.
     """
-    ring, lines = Ring.of(table.order), list[str]()
+    ring, cases = Ring.of(table.order), list[Conditioned]()
     given = convert(conj(f for f in conjuncts(known) if {*f.free} <= {*table.order[:parameters]}), ring)
     everything: frozenset[tuple[int, ...]] = frozenset()  # cells that are said, with all that is over them
     for depth in range(parameters, len(table.order)):
@@ -66,16 +87,16 @@ def cases_by_value(table: CellTable, parameters: int, budget: Budget, known: For
         last = depth == len(table.order) - 1
         determined = {i for i, base in enumerate(bases) if last or _is_determined(base.cell, len(table.order) - depth)}
         outside = cells_outside(table, bases, given)
-        lines += _lines(table, depth, bases, determined, everything, outside, depth > parameters, budget)
+        cases += _cases(table, depth, bases, determined, everything, outside, depth > parameters, budget)
         rest = frozenset(base.path for i, base in enumerate(bases) if i not in determined)
         if not rest:
-            return lines
+            return cases
         everything |= {base.path for base in bases if _is_all(base.cell)}
         table = only(table, rest | everything)
     return None
 
 
-def _lines(
+def _cases(
     table: CellTable,
     depth: int,
     bases: list[Place],
@@ -84,7 +105,7 @@ def _lines(
     outside: frozenset[int],
     solved: bool,
     budget: Budget,
-) -> list[str]:
+) -> list[Conditioned]:
     """The cases over those cells of the parameters that are known to have finitely many values or ranges, or all; but
     not over those with ``everything``, which is said already. Conditions may or may not include what is ``outside``."""
     said = _Said(table, depth, Sections(table, budget))
@@ -94,7 +115,7 @@ def _lines(
         found |= {(i, place.path): terms for place, terms in said.over(bases[i], _fixed(table, bases[i]))}
     free = frozenset(i for i in known if _is_all(bases[i].cell))
     holding: dict[tuple[frozenset[int], frozenset[int]], list[Terms]] = {}
-    for terms in _cover(found):
+    for terms in _cover(found, table.order[depth:]):
         cells = frozenset(i for (i, _), all_terms in found.items() if terms in all_terms)
         defined = frozenset(i for i in free if said.is_defined(terms, bases[i]))
         holding.setdefault((cells, defined - cells), []).append(terms)
@@ -102,11 +123,10 @@ def _lines(
     if new:
         holding[new, free - new] = [()]
     ordered = sorted(holding.items(), key=lambda pair: min(pair[0][0]))
-    columns = partial(columns_of, table.factors[:depth], cache(partial(said.counted, bases)), bases)
+    said_by = partial(columns_of, table.factors[:depth], cache(partial(said.counted, bases)), bases), solved, budget
     return [
-        line
+        Conditioned(bases[min(cells)], *condition(table, bases, cells, (open_ | outside) - cells, *said_by), terms)
         for (cells, open_), terms in ordered
-        for line in _cases(condition(table, bases, cells, (open_ | outside) - cells, columns, solved, budget), terms)
     ]
 
 
@@ -144,15 +164,18 @@ class _Said:
     sections: Sections
     needs: dict[str, list[tuple[Poly, frozenset[int]]]] = field(default_factory=lambda: defaultdict(list))
 
-    def over(self, place: Place, fixed: Mapping[int, Fraction]) -> Iterator[tuple[Place, set[Terms]]]:
-        """The solutions over a cell, with the terms that say them; ``fixed``: the variables with a rational value."""
+    def over(
+        self, place: Place, fixed: Mapping[int, Fraction], quotients: Sequence[Poly] = ()
+    ) -> Iterator[tuple[Place, set[Terms]]]:
+        """The solutions over a cell, with the terms that say them; ``fixed``: the variables with a rational value;
+        ``quotients``: polynomials of degree 1 in the variables that they say, the last one first."""
         stack = place.cell.stack
         if stack is None or _is_all(place.cell):
             return
         ends = self.sections.of(place)
         counts = Counter(end.poly for candidates in ends for end in candidates)
         name = quoted(self.table.order[place.depth])
-        values = [{t for end in c for t in self.texts(end, counts[end.poly], place, fixed)} for c in ends]
+        values = [{t for end in c for t in self.texts(end, counts[end.poly], place, fixed, quotients)} for c in ends]
         for start, stop in _runs(stack.cells):
             first = child(self.table, place, start)
             equal = values[start // 2] | self.numbers(first) if start % 2 and start == stop else set()
@@ -171,7 +194,8 @@ class _Said:
             inner = {**fixed, place.depth: number} if isinstance(number, Fraction) and is_fixed else fixed
             equations = {f"{name} = {value}": self.needs[value] for value in equal}
             self.needs.update(equations)
-            for end, terms in self.over(first, inner):
+            here = [end.poly for end in ends[start // 2] if self.is_quotient(end.poly, place)]
+            for end, terms in self.over(first, inner, (*here[:1], *quotients)):
                 yield end, {(text, *rest) for text in equations for rest in terms}
 
     def numbers(self, place: Place) -> set[str]:
@@ -183,11 +207,27 @@ class _Said:
         text = radical_text(place.point.number(place.depth - 1))
         return set() if "root(" in text else {text}
 
-    def texts(self, end: RootFunction, count: int, place: Place, fixed: Mapping[int, Fraction]) -> Iterator[str]:
+    def is_quotient(self, poly: Poly, place: Place) -> bool:
+        """Whether a factor has degree 1 in the next variable, and its coefficient a sign that is known on the cell."""
+        return poly.degree(place.depth) == 1 and bool(self.sign(poly.coefficients(place.depth)[1], place))
+
+    def explicit(self, poly: Poly, place: Place, quotients: Sequence[Poly]) -> Poly | None:
+        """A polynomial of degree 1 with the root that a factor has, without the variables that others say."""
+        rest = reduce(lambda form, one: form.resultant(one, one.level), quotients, poly)
+        parts = () if not rest or rest == poly else rest.factors()[1]
+        having = [factor for factor, _ in parts if factor.degree(place.depth)]
+        others = [factor for factor, _ in parts if not factor.degree(place.depth)]
+        return having[0] if len(having) == 1 and all(self.sign(one, place) for one in others) else None
+
+    def texts(
+        self, end: RootFunction, count: int, place: Place, fixed: Mapping[int, Fraction], quotients: Sequence[Poly] = ()
+    ) -> Iterator[str]:
         """The terms that a section is as the ``k``-th of ``count`` different roots of a factor."""
         if end.value is not None:
             yield radical_text(end.value)
             return
+        if (same := self.explicit(end.poly, place, quotients)) is not None and self.is_quotient(same, place):
+            yield from self.valued(RootFunction(same, 1), 1, place, {})
         seen = [(i, value) for i, value in fixed.items() if i in end.poly.variables]
         inner = {i: value for i, value in seen if i >= self.parameters}
         outer = len(seen) - len(inner)  # with these values, too, it may be shorter
@@ -292,14 +332,15 @@ def _runs(cells: Sequence[Cell]) -> Iterator[tuple[int, int]]:
             yield from ((k, k) for k in places if any_true(cells[k]))
 
 
-def effort(texts: Iterable[str]) -> int:
-    """Characters, and ``TERM`` for each equation whose right side is not a number written out."""
-    lines = list(texts)
-    sides = (side for line in lines for side in _SIDE.findall(line))
-    return sum(map(len, lines)) + TERM * sum(re.search(r"\b(?!sqrt|cbrt)[^\W\d]", side) is not None for side in sides)
+def effort(texts: Iterable[str], names: Iterable[str]) -> int:
+    """Characters, and ``TERM`` for each equation whose right side has one of these variables, or a ``root``."""
+    lines, solved = list(texts), re.compile(rf"(?<!\w)({'|'.join(map(re.escape, (*names, 'root')))})(?!\w)")
+    return sum(map(len, lines)) + TERM * sum(
+        bool(solved.search(side)) for line in lines for side in _SIDE.findall(line)
+    )
 
 
-def _cover(found: Mapping[tuple[int, tuple[int, ...]], set[Terms]]) -> list[Terms]:
+def _cover(found: Mapping[tuple[int, tuple[int, ...]], set[Terms]], names: Sequence[str]) -> list[Terms]:
     """Few and short terms that are all solutions."""
     where: dict[Terms, set[tuple[int, tuple[int, ...]]]] = {}
     for solution, all_terms in found.items():
@@ -307,17 +348,11 @@ def _cover(found: Mapping[tuple[int, tuple[int, ...]], set[Terms]]) -> list[Term
             where.setdefault(terms, set()).add(solution)
     uncovered, chosen = set(found), []
     while uncovered:
-        best = min(where, key=lambda terms: (-len(where[terms] & uncovered), effort(terms), min(where[terms]), terms))
+        best = min(
+            where, key=lambda terms: (-len(where[terms] & uncovered), effort(terms, names), min(where[terms]), terms)
+        )
         chosen.append(best)
         uncovered -= where[best]
     return sorted(
         chosen, key=lambda terms: (min(where[terms]), ["+ sqrt" in text for text in terms], sorted(where[terms]))
     )
-
-
-def _cases(given: tuple[str, bool], said: list[Terms]) -> list[str]:
-    """A condition, perhaps a disjunction, and what holds under it; what is said of the first variable is said once."""
-    (condition, is_or), parts = given, parts_of(said)
-    if not (condition and parts):
-        return parts or [condition or "true"]
-    return [both((condition, is_or), (" or ".join(parts), len(parts) > 1))]

@@ -11,6 +11,7 @@ from html import escape
 from qe.decomposition.pieces import Piece
 from qe.formula.build import disj
 from qe.formula.syntax import Formula
+from qe.io.latex_text import formula_in_latex
 from qe.io.substitution import over_one_ring
 from qe.proof.answer import UNPROVED, Answer, Guarantee
 from qe.proof.certificate import Certificate
@@ -83,6 +84,11 @@ class Solutions(SymPyForm):
 
     def __str__(self) -> str:
         return _with_names(" or\n".join(self.lines)) or "false"
+
+    def to_latex(self) -> str:
+        """The cases, one a line, for math mode."""
+        lines = " \\lor \\\\\n".join(map(formula_in_latex, self.lines)) or r"\bot"
+        return f"\\begin{{array}}{{l}}\n{lines}\n\\end{{array}}"
 
     def brief(self) -> str:
         """As ``str``, for people: bounds that would fill more than a line or two are described only."""

@@ -19,14 +19,32 @@ from tests.tables import each
         "x^4 + a*x^2",
         "true",
         "a",
-        ["-a^2/4 at x = -sqrt(-2*a)/2 or x = sqrt(-2*a)/2 if a < 0", "0 at x = 0 if a >= 0"],
+        ["-a^2/4 at x = -sqrt(-a/2) or x = sqrt(-a/2) if a <= 0", "0 at x = 0 if a >= 0"],
     ),
     ("x", "x > a and x < 1", "a", ["a (not attained) if a < 1"]),
     ("x", "x^2 < 0 and a = a", "a", ["no point meets the constraints"]),
-    ("max(x, a)", "x >= 0", "a", ["0 at x = 0 if a <= 0", "a at 0 <= x <= value if a > 0"]),
+    ("max(x, a)", "x >= 0", "a", ["0 at x = 0 if a <= 0", "a at 0 <= x <= a if a >= 0"]),
     ("x/y", "x > a and y > 0", "a", ["unbounded if a < 0", "0 (not attained) if a >= 0"]),
-    ("a*x", "true", "a", ["unbounded if a < 0", "0 at any x if a = 0", "unbounded if a > 0"]),
+    ("a*x", "true", "a", ["unbounded if a /= 0", "0 at any x if a = 0"]),
     ("a", "a > 0", "a", ["a if a > 0"]),
+    # nine cases before, some with y = -sqrt((2*a*c*x - 2*a^2*x^2 - b^2*x^2)/a^2)
+    (
+        "x^2 + y^2",
+        "a*x + b*y = c",
+        "a, b, c",
+        [
+            "c^2/(a^2 + b^2) at x = a*c/(a^2 + b^2), y = (c - a*x)/b if b /= 0",
+            "0 at x = 0, y = 0 if c = 0",
+            "c^2/a^2 at x = c/a, y = 0 if a /= 0 and b = 0",
+        ],
+    ),
+    (
+        "x^4 - 3*x",
+        "x >= b",
+        "b",
+        ["-cbrt(2187/256) at x = cbrt(3/4) if 4*b^3 <= 3", "b^4 - 3*b at x = b if 4*b^3 >= 3"],
+    ),
+    ("(x - a)^2 + y^2", "y = b*x", "a, b", ["a^2*b^2/(b^2 + 1) at x = a/(b^2 + 1), y = a*b/(b^2 + 1)"]),
     ("abs(x - a)", "ex y. y^2 = x", "a", ["-a at x = 0 if a <= 0", "0 at x = a if a > 0"]),
 )
 def test_cases(objective, constraints, parameters, printed):
@@ -38,6 +56,39 @@ def test_cases_that_differ_in_values_beyond_the_optimum_are_one():
     found = qe.optimum("x^2 - a*x", "x >= 0", parameters="a")
     assert str(found) == "least: 0 at x = 0 if a <= 0\n-a^2/4 at x = a/2 if a > 0\ngreatest: unbounded"
     assert str(qe.optimum("x + a", "0 <= x <= 1", parameters="a").least) == "a at x = 0"
+
+
+def test_points_where_the_equation_of_the_value_vanishes():
+    """All y were said to have the least value of x^2 + y^2 on 0 = 0, as (a^2 + b^2)*value = c^2 holds for every value
+    there."""
+    found = qe.minimize("x^2 + y^2", "a*x + b*y = c", parameters="a, b, c")
+    (case,) = [case for case in found if [str(r) for r in case.ranges] == ["a = 0", "b = 0", "c = 0"]]
+    assert qe.equivalent(" or ".join(" and ".join(map(str, place)) for place in case.minimisers), "x = 0 and y = 0")
+    assert str(found.at({"a": 0, "b": 0, "c": 0})) == "GlobalOptimum(0 at x = 0, y = 0)"
+
+
+QUESTIONS = (
+    ("a*x^2 + b*x", "-1 <= x <= 1", "a, b"),
+    ("a*x + b*y", "x^2 + y^2 <= 1", "a, b"),
+    ("x^2 + a*x*y + y^2", "x + y = b", "a, b"),
+    ("(x - a)^2 + (y - b)^2", "x*y = 0", "a, b"),
+    ("a*x", "b*x = 0", "a, b"),
+)
+
+
+@each(*QUESTIONS)
+def test_what_is_stated_are_the_cases(objective, constraints, parameters):
+    """Under each condition the points are those of the cases there, and every case is under one."""
+    found = qe.minimize(objective, constraints, parameters=parameters)
+
+    def formula(value, attained, points, conditions):
+        places = " or ".join(f"({' and '.join(p for p in point if 'any' not in p) or 'true'})" for point in points)
+        where = " and ".join(f"({c})" for c in conditions) or "true"
+        kind = f"value = {value} and kind = {int(attained)}" if value else "value = 0 and kind = 2"
+        return f"({where}) and {kind} and ({places or 'true'})"
+
+    stated, cases = (" or ".join(formula(*one) for one in some) for some in (found.stated, [c.stated for c in found]))
+    assert qe.equivalent(stated, cases)
 
 
 def test_the_greatest_value():

@@ -283,4 +283,4 @@ def test_a_sample_of_a_parameter_that_varies_is_no_value_of_it() -> None:
 def test_of_equally_good_terms_the_first_by_name_is_said() -> None:
     """Which of sqrt(2 - x^2) and cbrt(1 - x^3) was printed depended on the seed of Python's hashes."""
     found = {(0, (k,)): {(f"y = {name}",) for name in "fedcba"} for k in range(3)}
-    assert _cover(found) == [("y = a",)]
+    assert _cover(found, ()) == [("y = a",)]
