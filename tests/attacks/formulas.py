@@ -9,7 +9,7 @@ from qe.engine.run import solve
 from qe.errors import Unable
 from qe.exact.ring import Poly, Ring
 from qe.formula.build import atom, conj, disj, exists, forall, neg
-from qe.formula.evaluate import substituted
+from qe.formula.evaluate import holds_at
 from qe.formula.syntax import FALSE, TRUE, And, Atom, Constant, Exists, ForAll, Formula, Not, Or, Relation
 from qe.formula.traverse import children
 from qe.options import Budget, Options
@@ -96,8 +96,7 @@ def differs(rng: random.Random, left: Formula, right: Formula, known: Formula) -
     free = sorted({*left.free, *right.free, *known.free})
     for _ in range(60):
         at = {name: rng.choice(GRID) for name in free}
-        values = [substituted(f, {n: at[n] for n in f.free}) for f in (left, right, known)]
-        if values[2] == TRUE and values[0] != values[1]:
+        if holds_at(known, at) and holds_at(left, at) != holds_at(right, at):
             return True
     return False
 
