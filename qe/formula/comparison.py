@@ -44,7 +44,7 @@ def sides(poly: Poly, relation: Relation) -> Side:
 
     A bound of one variable is ``x <= 2/3``. Linear terms stand where they are positive, and so does the constant
     next to sums and powers of positive terms (``x^2 + y^2 <= 1``); a variable is compared with one other term
-    (``y <= x^2``), positive terms are equal to those that follow (``x^2 + y^2 = z^2``). All else, as
+    (``y <= x^2``, ``x^2 <= y^2``), positive terms are equal to those that follow (``x^2 + y^2 = z^2``). All else, as
     ``b^2 - 4*a*c > 0`` and ``x^2 - 2*x - 1 = 0``, is compared with 0.
     """
     parts, between, terms = _oriented(poly, relation)
@@ -60,7 +60,8 @@ def sides(poly: Poly, relation: Relation) -> Side:
     bounded = len(terms) < len(parts) and all(c > 0 for c, _ in terms) and (len(names) > 1 or len(terms) == 1)
     if bounded and len(terms) > 1 and all(c == terms[0][0] and [k for _, k in m] == [2] for c, m in terms):
         return _bounded(poly, relation)  # a sphere and its squared radius
-    equal = between is Relation.EQ and 1 < len(parts) <= MOST_MOVED and len(names) > 1
+    powers = len(parts) == 2 == len(names) and all(len(m) == 1 and m[0][1] > 1 for _, m in parts)
+    equal = (between is Relation.EQ or powers) and 1 < len(parts) <= MOST_MOVED and len(names) > 1
     if not (linear or bounded or (equal and coefficients == sorted(coefficients, key=lambda c: c < 0))):
         return parts, between, [], 1
     return [(c, m) for c, m in parts if c > 0], between, [(-c, m) for c, m in parts if c < 0], 1

@@ -22,7 +22,7 @@ from operator import mul
 from typing import NamedTuple
 
 from qe.decomposition.pieces import RootFunction, Sections, range_text
-from qe.decomposition.radicals import radicals
+from qe.decomposition.radicals import NONZERO, radicals
 from qe.decomposition.sampled_cells import Place, any_true, child, leaves
 from qe.elimination.rootsigns.forms import minors
 from qe.elimination.rootsigns.theory import minors as signs_of_minors
@@ -31,8 +31,8 @@ from qe.exact.algebraic import RealAlgebraic, real_roots
 from qe.exact.radicals import radical_text
 from qe.exact.ring import Poly, Ring, format_poly
 from qe.exact.sample import FibreRoot
-from qe.formula.build import conj, convert
-from qe.formula.syntax import TRUE, Formula
+from qe.formula.build import atom, conj, convert
+from qe.formula.syntax import TRUE, Formula, Relation
 from qe.formula.traverse import conjuncts
 from qe.options import Budget
 from qe.proof.cells import CHARACTER_OF, SIGN_OF, Cell, CellTable
@@ -123,11 +123,14 @@ def _cases(
     if new:
         holding[new, free - new] = [()]
     ordered = sorted(holding.items(), key=lambda pair: min(pair[0][0]))
-    said_by = partial(columns_of, table.factors[:depth], cache(partial(said.counted, bases)), bases), solved, budget
-    return [
-        Conditioned(bases[min(cells)], *condition(table, bases, cells, (open_ | outside) - cells, *said_by), terms)
-        for (cells, open_), terms in ordered
-    ]
+    columns = partial(columns_of, table.factors[:depth], cache(partial(said.counted, bases)), bases)
+    cases = []
+    for (cells, open_), several in ordered:
+        either = (open_ | outside) - cells
+        natural = said.defined(several, bases, cells, either)
+        where = condition(table, bases, cells, either, columns, solved, budget, natural)
+        cases.append(Conditioned(bases[min(cells)], *where, several))
+    return cases
 
 
 def _is_all(cell: Cell) -> bool:
@@ -296,6 +299,21 @@ class _Said:
         """Whether the texts have values over a cell of the parameters, as far as signs that are known there tell."""
         needs = (need for text in terms for need in self.needs[text])
         return all(poly.level >= base.depth or self.sign(poly, base) in signs for poly, signs in needs)
+
+    def defined(
+        self, terms: list[Terms], bases: list[Place], cells: frozenset[int], either: frozenset[int]
+    ) -> Formula | None:
+        """The formula that the texts have values, if that says which cells: those, and perhaps some of the others."""
+        needs = {need for texts in terms for text in texts for need in self.needs[text]}
+        inside = [(poly, signs) for poly, signs in needs if poly.level < bases[0].depth]
+        for i, base in enumerate(bases):
+            known = [(self.sign(poly, base), signs) for poly, signs in inside]
+            fails = any(sign is not None and sign not in signs for sign, signs in known)
+            if i not in either and (fails if i in cells else not fails or not known):
+                return None
+            if i in cells and any(sign is None for sign, _ in known):
+                return None
+        return conj(atom(poly, Relation.NE if signs == NONZERO else Relation.GE) for poly, signs in inside)
 
     def sign(self, poly: Poly, place: Place) -> int | None:
         """The sign of a product of factors on the cell; None where it is not among those that the table says."""

@@ -53,11 +53,12 @@ def condition(
     columns: Callable[[], Iterator[tuple[Factors, Signs]]],
     solved: bool,
     budget: Budget,
+    defined: Formula | None = None,
 ) -> tuple[str, bool]:
     """The condition on the parameters that says which cells: the ``chosen`` ones, and perhaps some of those that are
     open; and whether it is a disjunction. It is a formula in the signs of the first ``columns`` that tell them, or what
     pieces say whose ends are numbers and polynomials, if that is shorter, or not much longer and gives values of
-    variables that are to be ``solved`` for."""
+    variables that are to be ``solved`` for. ``defined``: one formula that says the same."""
     places = [(base, i in chosen) for i, base in enumerate(bases) if i not in open_]
     said = None
     for factors, signs in columns():
@@ -68,7 +69,10 @@ def condition(
             continue
         if formula == TRUE:
             return "", False
-        said = str(formula), isinstance(formula, Or)
+        natural = formula if defined is None else presented(simplify(defined))
+        said = min(((str(one), isinstance(one, Or)) for one in (natural, formula)), key=lambda one: len(one[0]))
+        if defined is not None and len(natural.free) > 1 and said[0] == str(natural):
+            return said
         break
     pieces = merge(only(table, frozenset(bases[i].path for i in chosen), True), budget=budget)
     ends = [end for piece in pieces for r in piece.ranges for end in (r.lower, r.upper) if end and end.value is None]

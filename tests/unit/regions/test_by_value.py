@@ -60,6 +60,12 @@ EXPECTED = (
     ("x^2 = a^2", "x", "x = -a or x = a"),
     ("x^4 - 5*x^2 + 4 = 0", None, "x = -2 or x = -1 or x = 1 or x = 2"),
     ("x^4 - 4*x^2 + 2 < 0 and x > 0", None, "sqrt(2 - sqrt(2)) < x < sqrt(2 + sqrt(2))"),
+    # r <= -|b| or r >= |b| in four parts
+    (
+        "(x - a)^2 + (y - b)^2 = r^2 and y = 0",
+        "x, y",
+        "b^2 <= r^2 and (x = a - sqrt(r^2 - b^2) and y = 0 or x = a + sqrt(r^2 - b^2) and y = 0)",
+    ),
     (
         "x + y = 3 and x*y = 1",
         None,

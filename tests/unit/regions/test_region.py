@@ -105,7 +105,7 @@ def test_double_roots_are_counted_once() -> None:
 def test_the_object() -> None:
     found = qe.reduce("x^2 + b*x + c = 0", "x")
     assert found.order == ("b", "c", "x") and len(found) == len(list(found)) == 3
-    assert str(found) == "c <= b^2/4 and (x = (-b - sqrt(b^2 - 4*c))/2 or x = (-b + sqrt(b^2 - 4*c))/2)"
+    assert str(found) == "b^2 - 4*c >= 0 and (x = (-b - sqrt(b^2 - 4*c))/2 or x = (-b + sqrt(b^2 - 4*c))/2)"
     assert repr(found) == "Solutions(b, c, x: 3 cases)" and "<li><code>" in found._repr_html_()
     assert found.region.contains(found[0].sample) and qe.verify(found.region.certificate).accepted
 
