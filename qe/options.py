@@ -66,15 +66,15 @@ class Stage(Enum):
     ``FORMS``: other closed forms, which are theorems of ``qe.theorems``.
     ``RANGES``: conditions that ranges of variables exclude are refuted.
     ``SAMPLES``: sentences of inequalities are tried at points. ``SEARCH``: sentences with many cases are
-    searched by a SAT solver. ``SQUARES``: signs that sums of squares prove. ``MINISCOPING``: quantifiers are moved
-    inwards, independent parts apart. ``EXCHANGE``: the sum and product of two variables that can be exchanged stand for
-    them. ``SHIFT``: x^k is named x. ``GENERIC``: inequations that remove no interior are
-    dropped. ``CANCELLING``: multiples of equations are subtracted. ``SPLITTING``: an equation that factors gives
-    cases. ``INFINITY``, ``CRITICAL``, ``CONVEX``, ``CGS``, ``WITNESS``: truth at infinity first; critical values;
-    convex optimisation; comprehensive Gröbner systems; polynomial witnesses. ``ROOTS``: one polynomial of degree 3 or
-    more by signs of Hermite's forms. ``NAMING``: a linear form that curved conditions look at gets a name.
-    ``REDUNDANT``: parts of an answer that make no difference are dropped. ``SHORTENING``: a last look for a shorter or
-    constant answer, these parts included.
+    searched by a SAT solver. ``BRANCHING``: sentences between bounds are refuted piece by piece.
+    ``SQUARES``: signs that sums of squares prove. ``MINISCOPING``: quantifiers are moved inwards, independent parts
+    apart. ``EXCHANGE``: the sum and product of two variables that can be exchanged stand for them. ``SHIFT``: x^k is
+    named x. ``GENERIC``: inequations that remove no interior are dropped. ``CANCELLING``: multiples of equations are
+    subtracted. ``SPLITTING``: an equation that factors gives cases. ``INFINITY``, ``CRITICAL``, ``CONVEX``, ``CGS``,
+    ``WITNESS``: truth at infinity first; critical values; convex optimisation; comprehensive Gröbner systems;
+    polynomial witnesses. ``ROOTS``: one polynomial of degree 3 or more by signs of Hermite's forms. ``NAMING``: a
+    linear form that curved conditions look at gets a name. ``REDUNDANT``: parts of an answer that make no difference
+    are dropped. ``SHORTENING``: a last look for a shorter or constant answer, these parts included.
     """
 
     EQUATIONS = "equations"
@@ -98,6 +98,7 @@ class Stage(Enum):
     RANGES = "ranges"
     SAMPLES = "samples"
     SEARCH = "search"
+    BRANCHING = "branching"
     SQUARES = "squares"
     MINISCOPING = "miniscoping"
     EXCHANGE = "exchange"

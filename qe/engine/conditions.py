@@ -179,6 +179,15 @@ def curved_in_many_variables(problem: Block, options: Options) -> str | None:
     return f"{len(problem.variables)} variables" if problem.is_flat and not problem.free else None
 
 
+def curved_between_bounds(problem: Block, options: Options) -> str | None:
+    """Such a sentence, with equations or not, where conditions bound a variable on either side."""
+    if len(problem.variables) < CONVEX_FROM or not problem.curved or not problem.is_flat or problem.free:
+        return None
+    linear = [a.poly for a in problem.conditions if isinstance(a, Atom) and a.poly.total_degree == 1]
+    bounds = [poly.variables for poly in linear if poly.term_count() <= 2 and len(poly.variables) == 1]
+    return f"{len(problem.variables)} variables between bounds" if len(bounds) > len({*bounds}) else None
+
+
 def _falls_apart(problem: Block) -> bool:
     """Whether some conjuncts share no variable with the others."""
     block = frozenset(problem.variables)

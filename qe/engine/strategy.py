@@ -73,6 +73,7 @@ METHODS = {
         "qe.elimination.witness", "PolynomialWitnesses", "the search for witnesses", Stage.WITNESS, Method.WITNESS
     ),
     "samples": Listed("qe.elimination.samples", "SampledPoints", "trying points", Stage.SAMPLES),
+    "branching": Listed("qe.elimination.branching", "BranchAndBound", "branch and bound", Stage.BRANCHING),
     "search": Listed("qe.elimination.search.method", "BooleanSearch", "the Boolean search", Stage.SEARCH),
     "cgs": Listed(
         "qe.elimination.cgs",
@@ -200,10 +201,12 @@ STRATEGY: tuple[Attempt, ...] = (
     Attempt(Scope.ASKED, "search", on.hopeless_cases),
     Attempt(Scope.ASKED, "search", on.many_cases, SHORTCUT),
     Attempt(Scope.ASKED, "convex", on.closed_in_many_variables, SHORTCUT),
+    Attempt(Scope.ASKED, "branching", on.curved_between_bounds, 3 * GLANCE),
     Attempt(Scope.ASKED, "samples", on.curved_in_many_variables, PROBE),
     Attempt(Scope.ASKED, "cgs", on.equations_bind_a_sentence, SHORTCUT, complete),
     Attempt(Scope.ASKED, "critical, convex universal", on.curved_in_the_block, 2 * SHORTCUT),
     Attempt(Scope.ASKED, "projection", on.polyhedron, FIRST),
+    Attempt(Scope.ASKED, "branching", on.curved_between_bounds, SHORTCUT),
     Attempt(Scope.ASKED, "linear form named", on.several_parameters),
     Attempt(Scope.PREPARED, "critical", on.convex_conditions, SHORTCUT),
     Attempt(Scope.BLOCK, "infinity first", on.one_variable_and_parameters),

@@ -33,7 +33,7 @@ from qe.proving.forms import named, seen_along
 from qe.proving.lemma_list import EMPTY
 from qe.proving.linear import guarded, term
 from qe.proving.made import FRESH, Made, quantified, value
-from qe.proving.mirrors import mirrored
+from qe.proving.mirrors import mirrored, ordered
 from qe.proving.primitive_names import PROJECTION
 from qe.proving.ranges import by_ranges
 from qe.proving.scaling import scaled, translated
@@ -206,6 +206,7 @@ _BY_RULE: Mapping[str, Elaborator] = {
     "linear form as a variable": sheared,
     "linear form named": named,
     "mirror images of a convex set": mirrored,
+    "exchangeable variables in order": ordered,
     "affine coordinates": positioned,
     "disjuncts with equations apart": distributed,
     "roots by signs": roots_by_signs,

@@ -109,12 +109,22 @@ def _cases(searches: Sequence[Refutation], polys: Sequence[Poly]) -> list[Json]:
     return [[k, clause] for k, search in enumerate(searches) for clause in search.cases(numbers)]
 
 
-def identities(listed: Iterable[Sequence[Term]], ring: Ring) -> Json:
-    """Sums that are 0, as lemmas over the ring."""
+def identities(
+    listed: Iterable[Sequence[Term]], ring: Ring, clauses: Iterable[Sequence[tuple[Poly, int]]] = ()
+) -> Json:
+    """Sums that are 0, as lemmas over the ring, and clauses of signs of their polynomials for the first goal."""
     lemmas = Lemmas(ring)
     for terms in listed:
         lemmas.identity([(c, tuple((p.convert(ring), e) for p, e in powers)) for c, powers in terms])
-    return lemmas.only(range(len(lemmas.lemmas)))
+
+    def literal(poly: Poly, signs: int) -> int:
+        content, primitive = poly.convert(ring).normal()
+        return 8 * lemmas.number(primitive) + (signs if content > 0 else int(f"{signs:03b}"[::-1], 2))
+
+    cases: list[Json] = [[0, [literal(*said) for said in clause]] for clause in clauses]
+    theory = lemmas.only(range(len(lemmas.lemmas)))
+    assert isinstance(theory, dict)
+    return {**theory, "cases": cases}
 
 
 def _mentioned(lemma: Json) -> list[int]:

@@ -1,18 +1,21 @@
-"""Mirror images of a convex set in steps of the kernel: with a point and its image the middle of both is a solution."""
+"""Blocks that are their own images under a change of places, in steps of the kernel: of a convex set with a point and
+its image the middle of both is a solution; of variables that can be exchanged the least may be the first."""
 
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from itertools import permutations
 
 from qe.exact.ring import Poly
-from qe.formula.build import conj, exists, forall
+from qe.formula.build import conj, disj, exists, forall
 from qe.formula.syntax import Atom, Exists, ForAll, Formula
 from qe.formula.traverse import atoms, conjuncts
 from qe.kernel.step import Claim, only
 from qe.kernel.terms import Quotient, at_terms
 from qe.proof.entry import Entry
-from qe.proving.lemma_list import Term, identities
+from qe.proving.lemma_list import EMPTY, Term, identities
 from qe.proving.made import Made
+from qe.rules.ordered import least
 
 Images = Mapping[str, Poly]
 
@@ -92,3 +95,26 @@ def _images(entry: Entry, claim: Claim) -> Images:
             raise row.fail("expected variables")
         images[variable.text()] = claim.ring.var(image.text()) * side.integer(-1)
     return images
+
+
+def ordered(made: Made, after: Formula) -> None:
+    """One of some variables is the least, and it changes places with the first."""
+    ring, one = made.ring, made.ring.constant(1)
+    for listed in only(made.claim, "exchanges")[0].items():
+        block = made.current
+        pairs = [[pair.row("variable", "variable") for pair in exchange.items()] for exchange in listed.items()]
+        exchanges = [{one.text(): other.text() for one, other in exchange} for exchange in pairs]
+        if not isinstance(block, Exists) or not exchanges or not all({*e} <= {*block.variables} for e in exchanges):
+            raise listed.fail("expected exchanges of variables of a block")
+        body, first = block.body, next(iter(exchanges[0]))
+        case, *others = (
+            exists(block.variables, conj((body, *least(body, exchanges, k)))) for k in range(len(exchanges) + 1)
+        )
+        names = [ring.var(v) for v in (first, *(e[first] for e in exchanges))]
+        sums: list[list[Term]] = [
+            [(1, ((p - q, 1),)) for p, q in ((a, b), (b, c), (c, a))] for a, b, c in permutations(names, 3)
+        ]
+        made.signs(block, disj((case, *others)), identities(sums, ring))
+        for other, exchange in zip(others, exchanges, strict=True):
+            there = {v: (ring.var(image), one) for v, image in exchange.items()}
+            made.terms(other, case, there, there, EMPTY)

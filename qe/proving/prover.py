@@ -56,7 +56,7 @@ SIMPLIFYING = (
 """Rules whose steps go on under quantifiers."""
 
 CRITICAL = "critical values"
-SEARCH, SQUARES = "Boolean search", "signs by sums of squares"
+SEARCH, IDENTITIES = "Boolean search", ("signs by sums of squares", "branch and bound")
 REDUNDANT = "redundant part"
 UNRECORDED = "steps that are not recorded"
 
@@ -209,7 +209,7 @@ class Prover:
         given = step.evidence.get("proof")
         if isinstance(given, Mapping) and isinstance(made := given.get("certificate"), Certificate):
             return self._by_method(step, context, made)
-        if step.rule == SQUARES:
+        if step.rule in IDENTITIES:
             return self._positive(step, given, context)
         evidence = {name: self._json(part) for name, part in given.items()} if isinstance(given, Mapping) else {}
         if step.rule == SEARCH:
@@ -282,11 +282,18 @@ class Prover:
             return None
 
     def _positive(self, step: Step, given: object, context: Context) -> Shown | None:
-        """Signs that follow from identities, which the rule has found."""
+        """Signs that follow from identities, which the rule has found, perhaps with the clauses by which they do."""
         assert isinstance(given, Mapping)
-        lemmas = identities([*given["identities"]], self.ring)
+        lemmas = identities(given["identities"], self.ring, given.get("clauses", ()))
         claim = self._claim(SIGNS, step, {"theory": lemmas})
-        theory = self._found(lambda: with_cases(lemmas, block_goals(claim, context), self.ring, self.limits))
+
+        def theory_of() -> Json:
+            if "clauses" not in given:
+                return with_cases(lemmas, block_goals(claim, context), self.ring, self.limits)
+            self._check(claim, context)
+            return lemmas
+
+        theory = self._found(theory_of)
         return None if theory is None else (SIGNS, {"theory": theory})
 
     def _substituted(self, step: Step, trace: Eliminated) -> Shown | None:

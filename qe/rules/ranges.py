@@ -9,7 +9,7 @@ The evidence is the list of bounds that were used and the condition that fails; 
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, field
 from fractions import Fraction
 from math import inf, isfinite, isinf
@@ -44,11 +44,7 @@ def excluded_by_ranges(variables: tuple[str, ...], body: Formula, context: Block
         return None
     if all(a.poly.total_degree < 2 for _, a in inequalities):
         return None  # linear conditions have methods of their own
-    conditions = [
-        _Condition(k, p, a.relation, p.sparse_terms(), frozenset(a.free))
-        for k, a in inequalities
-        for p in at_most_zero(a)
-    ]
+    conditions = _conditions(inequalities)
     if not _may_fail(conditions):
         return None
     search = _Search(conditions)
@@ -57,6 +53,21 @@ def excluded_by_ranges(variables: tuple[str, ...], body: Formula, context: Block
         return None
     bounds = [[k, name, power, side, value] for k, name, power, side, value in search.bounds]
     return Found(StepKind.RANGES, str(parts[failing]), NEVER, {"bounds": bounds, "fails": failing})
+
+
+def ranges_of(atoms: Sequence[Atom]) -> dict[int, tuple[Number, Number]]:
+    """The ranges of variables, by their places, that the theorem gives."""
+    search = _Search(_conditions(enumerate(atoms)))
+    search.failing()
+    return {i: (search.low.get(i, -inf), search.high.get(i, inf)) for i in {*search.low, *search.high}}
+
+
+def _conditions(inequalities: Iterable[tuple[int, Atom]]) -> list[_Condition]:
+    return [
+        _Condition(k, p, a.relation, p.sparse_terms(), frozenset(a.free))
+        for k, a in inequalities
+        for p in at_most_zero(a)
+    ]
 
 
 def at_most_zero(a: Atom) -> Iterator[Poly]:

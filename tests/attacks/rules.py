@@ -11,6 +11,8 @@ from tests.attacks.questions import Row, row
 FORM = "a*(1 - x)^3 + b*x*(1 - x)^2 + {c|1|0}*x^2*(1 - x) + {p}*x^3"
 CIRCLES = "(x - a)^2 + {y^2|(y - b)^2} {<} {p}"
 
+BETWEEN = "0 <= x and x <= 1 and 0 <= y and y <= 1 and 0 <= z and z <= 1 and 0 <= u and u <= 1"
+
 RULES: dict[str, Row] = {
     "renaming": row(
         "(ex x. {s}*x + {L} {O} 0 and x {R} b) and (ex x. x^2 {O} {L})",
@@ -287,6 +289,15 @@ RULES: dict[str, Row] = {
         + " and x*y {O} {n}",
         "ex x, y. " + " and ".join(["(x {O} {n} or {x + y|y} {O} {n})"] * 12),
     ),
+    "branch and bound": row(
+        "ex x, y, z, u. " + BETWEEN + " and x*y + {p}*z*u {>} {n} + 4 and x - y {O} {n} and x*z {<} {n}",
+        "ex x, y, z, u. " + BETWEEN + " and (x*y {>} {n} or z*u^2 {<} {n}) and {s}*x + {s}*y*z {O} {n} and u^2 {>} x*y",
+        "all x, y, z, u. " + BETWEEN + " -> x*y - {p}*z*u {<} {p} + {n} or x - z {>} {n}",
+    ),
+    "exchangeable variables in order": row(
+        "ex x, y, z, u. " + BETWEEN + " and (x - y)^2 + (z - u)^2 {>} {n} + 1 and x*z + y*u {O} {n} + 1",
+        "ex x, y, z, u. " + BETWEEN + " and x*y*z*u {>} {n} and x + y + z + u {<} {n}",
+    ),
     "comprehensive Gröbner system": row(
         "ex x. x^2 + a*x + b = 0 and x {O} {n}",
         "ex x. {a|{s}}*x^2 + b*x + {s} = 0 and x {R} {n}",
@@ -336,6 +347,7 @@ METHODS: dict[str, Row] = {
         "ex x, y, z, u. x*y {>} z^2 + {p} and z*u {>} {p} and x + y {<} 5 + {p} and (u^2 {<} x*y or x {>} 100)",
     ),
     "search": RULES["Boolean search"],
+    "branching": RULES["branch and bound"],
     "cgs": RULES["comprehensive Gröbner system"],
     "coverings": RULES["covering"],
     "infinity first": RULES["infinity first"],
