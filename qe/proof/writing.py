@@ -62,6 +62,9 @@ RULES: Mapping[str, str] = {
     "over a sample and near it (Ábrahám, Davenport, England, Kremer 2021).",
     "Boolean search": "Every choice of cases contains comparisons that no point satisfies together "
     "(Nieuwenhuis, Oliveras, Tinelli 2006).",
+    "branch and bound": "Within bounds, products of distances from them are not negative; piece by piece, a combination of "
+    "these and of the conditions is a negative number (Sherali, Adams 1990; Farkas 1902).",
+    "exchangeable variables in order": "The least of variables that can change places may be the first of them.",
     "convex": "A convex set has a point, or multipliers combine its conditions to a contradiction.",
     "point or multipliers": "A point decides a sentence, or multipliers of its conditions show that there is none.",
     "witness in the parameters": "Polynomials in the universal variables satisfy the inner blocks.",

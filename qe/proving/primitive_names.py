@@ -17,6 +17,7 @@ BY_SIGNS = (
     "Groebner basis of the equations",
     "multiple of an equation subtracted",
     "Boolean search",
+    "branch and bound",
 )
 
 PRIMITIVE_OF: Mapping[str, str] = {
