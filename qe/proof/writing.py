@@ -62,7 +62,7 @@ RULES: Mapping[str, str] = {
     "over a sample and near it (Ábrahám, Davenport, England, Kremer 2021).",
     "Boolean search": "Every choice of cases contains comparisons that no point satisfies together "
     "(Nieuwenhuis, Oliveras, Tinelli 2006).",
-    "branch and bound": "Within bounds, products of distances from them are not negative; piece by piece, a combination of "
+    "branch and bound": "Products of distances from bounds are not negative; piece by piece, a combination of "
     "these and of the conditions is a negative number (Sherali, Adams 1990; Farkas 1902).",
     "exchangeable variables in order": "The least of variables that can change places may be the first of them.",
     "convex": "A convex set has a point, or multipliers combine its conditions to a contradiction.",
