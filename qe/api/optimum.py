@@ -26,6 +26,7 @@ from qe.formula.build import conj
 from qe.formula.doubts import numbers_as_names, products_as_names
 from qe.formula.numbers import bounds_of_numbers
 from qe.formula.syntax import Formula
+from qe.io.parser import FUNCTIONS
 from qe.io.substitution import over_one_ring
 from qe.io.text import optimum_asked
 from qe.optimization.values import Goal, Objective
@@ -151,7 +152,8 @@ def _best(
         if goal == -sign:
             raise InputError(f"objective: a {'least' if sign > 0 else 'greatest'} value is asked for here, not there")
         constraints = [constraints, more]
-        parameters = (sorted(names_typed([objective, more]) - {*variables}) if variables else ()) or parameters
+        others = names_typed([objective, more]).difference(variables, FUNCTIONS) if variables else ()
+        parameters = sorted(others) or parameters
     given, assuming = arguments.names(parameters, "parameters"), settings["assuming"]
     named = {*(given or ()), *variables}
     objective, constraints, assuming = of_one_problem(objective, constraints, assuming, listed=named)

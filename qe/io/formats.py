@@ -45,6 +45,7 @@ class Format(Enum):
 
 
 _BEGINNINGS = {
+    Format.QEPCAD: re.compile(r"\s*\[[^\]]*\]\s*\([\w\s,']*\)\s*[0-9]+\s*\("),
     Format.REDLOG: re.compile(rf"\s*{REDLOG}\b"),
     Format.SMTLIB: re.compile(r"\s*\((?:set-(?:logic|info|option)|declare-|define-|assert\s*\()"),
 }
@@ -80,12 +81,16 @@ def read_posed(
         raise arguments.wrong("text", "a text", text)
     if not chosen.readable:
         raise InputError(f"the format {chosen.value} can only be written; readable: {', '.join(READABLE)}")
+    if chosen is Format.TEXT and re.search(REDLOG, text):
+        from qe.io.scripts import last_command
+
+        text = last_command(text)
     chosen = kind(text, chosen)
     module, total = _module(chosen), arguments.flag(total_division, "total_division")
-    if hasattr(module, "read_posed"):
-        both: tuple[Formula, Formula] = module.read_posed(text, source=source)
-        return both
     more = {"total_division": True} if total and chosen is Format.TEXT else {}
+    if hasattr(module, "read_posed"):
+        both: tuple[Formula, Formula] = module.read_posed(text, source=source, **more)
+        return both
     return module.read(text, source=source, **more), TRUE
 
 

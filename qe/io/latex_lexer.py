@@ -82,21 +82,6 @@ _NUMBERED = re.compile(r"\\u\{([0-9a-f]{1,6})\}")
 _NOT = re.compile(r"\s*(=|<|>|\\[A-Za-z]+)")
 _MARK = re.compile(r"(?<!/)\\(?:[A-Za-z]|[},;!|])|\$|[_^]\{")
 _BACKQUOTED = re.compile(QUOTED)
-_INNER = r"\{([^{}]*)\}"
-_STRUCTURE = tuple(
-    (re.compile(pattern), put)
-    for pattern, put in (
-        (r"\\mathbb\s*(?:\{R\}|R)", "Reals"),
-        (rf"\\(?:text|mathrm|operatorname){_INNER}", r" \1 "),
-        (rf"\\[dt]?frac{_INNER}{_INNER}", r"((\1)/(\2))"),
-        (r"\\[dt]?frac(\w)(\w)", r"(\1/\2)"),
-        (rf"\\sqrt{_INNER}", r"sqrt(\1)"),
-        (rf"\\sqrt\[3\]{_INNER}", r"cbrt(\1)"),
-        (rf"\^{_INNER}", r"^(\1)"),
-        (rf"_{_INNER}", r"_\1"),
-    )
-)
-"""Groups of LaTeX, innermost first, in the text syntax."""
 _GAP = r"(?:\s|\\[,;:! ]|\\q?quad\b)*"
 _NEXT = re.compile(
     rf"{_GAP}(?:[^\W\d_]|\\(?:{_LETTERS.pattern})\b|\\(?:{'|'.join(_FONTS)})\{{[^{{}}]*\}})"
@@ -120,19 +105,10 @@ def tokens(text: str) -> Iterator[Token]:
 
 def as_text(source: str) -> str:
     """What stands between dollars in a sentence as the text syntax has it; what is not known stays as it is."""
-    written, source = source, ""
-    while written != source:
-        source = written
-        for pattern, put in _STRUCTURE:
-            written = pattern.sub(put, written)
-    return re.sub(r"\\([A-Za-z]+|.)", _as_word, source)
-
-
-def _as_word(command: re.Match[str]) -> str:
-    name = command[1]
-    if name in _COMMANDS:
-        return f" {_COMMANDS[name][1]} "
-    return " " if name in _SPACES or name in _SKIPPED else name if _LETTERS.fullmatch(name) else command[0]
+    try:
+        return re.sub(r" ?([\^(),*/]) ?", r"\1", " ".join(token.text for token in tokens(source)))
+    except SyntaxFailure:
+        return source
 
 
 class _Source:

@@ -7,11 +7,16 @@ What is read is noted for the caller; a text that is not clear stays as it is.
 from __future__ import annotations
 
 import re
-from dataclasses import dataclass
+from itertools import combinations
 
+from qe.errors import InputError
+from qe.exact.ring import Poly
+from qe.formula.build import atom
+from qe.formula.relation import Relation
+from qe.io.scripts import last_command
 from qe.io.surface import FUNCTIONS
-from qe.io.text_words import COUNTS, LISTED, NO_VARIABLES, QUANTITY, SIGNED, THERE
-from qe.spelling import KEYWORDS, WORD
+from qe.io.text_words import COUNTS, LISTED, NO_VARIABLES, QUANTITY, SIGNED, THERE, Question, split
+from qe.spelling import KEYWORDS, WORD, unquoted
 
 NO_NAMES = {*NO_VARIABLES, "for", "every", "any", "reals", "numbers", "such", "that", "with", "there", "is", "are"}
 """Words of sentences that are no variables."""
@@ -22,6 +27,11 @@ LONGEST = 1000
 _LIST = rf"{LISTED}(?:\s*(?:,|and)\s*{LISTED})*"
 _SHOW = r"(?:(?:prove|show|verify|check|decide|determine)\s+(?:that|whether|if)|is\s+it\s+true\s+that)"
 _PROVE = r"(?:prove|show|verify)(?:\s+that)?"
+_VALUES = (
+    r"(?:(?:(?:two|all|exact|possible|real|the|set|range|values?|constants?|that|of)\s+)*(?:values?|range|constants?)\s+"
+    r"(?:(?:of|that|the|constant)\s+)*)"
+)
+_SIGN = rf"(?:{'|'.join(SIGNED)})"
 _STOCK = (
     (r"(?:prove\s+or\s+disprove|true\s+or\s+false|prove|show|verify)\s*:\s*", "prove that "),
     (r"(?:(?:when\s+)?do(?:es)?|under\s+(?:what|which)\s+conditions?(?:\s+on\s+.+?)?\s+do(?:es)?)\s+", ""),
@@ -29,8 +39,29 @@ _STOCK = (
         r"(?:find|determine|give)\s+(?:the\s+)?conditions?(?:\s+on\s+.+?)?\s+(?:(?:so|such)\s+that|(?:for|under)\s+which|for)\s+",
         "",
     ),
-    (rf"if\s+(.+),\s*(?:find|determine)\s+({LISTED})", r"find \2 such that \1"),
-    (r"(find\s+)(?:the\s+)?(?:set|range)\s+of\s+", r"\1"),
+    (
+        rf"(?:(?:if|given|suppose)(?:\s+that)?\s+)?(?!find|determine|for\b)(.+?)[,.]?\s+(?:find|determine)\s+(?:the\s+)?{_VALUES}?"
+        rf"({LISTED})(?:\s+(?:may|can)\s+(?:have|take))?$",
+        r"find \2 such that \1",
+    ),
+    (rf"(?:(?:find|determine|what\s+(?:is|are))\s+)?(?:the\s+)?{_VALUES}(?={LISTED}\s+(?:for|such|so)\b)", "find "),
+    (r"find\s+what\s+values", "for what values"),
+    (r"(?:solve\s+)?the\s+system(?:\s+of\s+equations)?:?\s+(?!.*\b(?:has|have)\b)(?=.*=)", "solve: "),
+    (
+        rf"find\s+({LISTED})\s+for\s+(?!which\b|what\b|all\b|every\b|any\b)(.+?)\s+with\s+(?=.*(?:root|solution))",
+        r"find \1 such that \2 has ",
+    ),
+    (rf"solve\s+(.+)\s+for\s+({_LIST})$", r"solve for \2: \1"),
+    (
+        r"((?:prove|show)\s+that\s+)for\s+(?!all\b|any\b|every\b|some\b)(.+?),?\s+(?:we\s+have|it\s+holds(?:\s+that)?)\s+",
+        r"\1if \2 then ",
+    ),
+    (rf"(.*?)both\s+(?:the\s+)?roots\s+of\s+(.+?)\s+are\s+({_SIGN})$", r"\1\2 has both \3 roots"),
+    (r"(.*?)both\s+(?:the\s+)?roots\s+of\s+(.+?)\s+are\s+(.+)$", r"\1\2 has both roots \3"),
+    (r"(.*?)\s+has\s+(?:all\s+(?:its\s+)?roots\s+real|only\s+real\s+roots)$", r"\1 has both roots"),
+    (r"(?=.*\b(?:meet|touch|intersect)\b)(.*=.*)\s+and\s+(.*=.*)\s+(meet|touch|intersect)\b", r"\1 \3s \2"),
+    (rf"({_LIST}\s+are\s+[^,]+),\s+({_PROVE}\s)", r"let \1. \2"),
+    (rf"({_PROVE}.*?)(?:,?\s+where|\.\s+(?:note:|here))\s+({_LIST}\s+(?:are|is)\s+.+)$", r"let \2. \1"),
 )
 """Beginnings of questions, and what is said for short."""
 _ASKED = re.compile(
@@ -49,9 +80,9 @@ _GIVEN = re.compile(
     re.IGNORECASE | re.DOTALL,
 )
 _IF_THEN = re.compile(r"if\s+(.+?),?\s+then\s+(.+)", re.IGNORECASE | re.DOTALL)
-_SIGN = rf"(?:{'|'.join(SIGNED)})"
+_DISTINCT = r"(?:unequal|distinct|different)"
 _SORTED = re.compile(
-    rf"({_LIST})\s+(?:be|are|is|denote)\s+(?:an?\s+|any\s+)?(?:real\s+)?({_SIGN})?\s*(?:reals?\b)?\s*(?:numbers?\b)?"
+    rf"({_LIST})\s+(?:be|are|is|denote)\s+(?:an?\s+|any\s+)?(?:real\s+)?({_DISTINCT}\s+)?({_SIGN})?\s*(?:reals?\b)?\s*(?:(?:numbers?|quantities)\b)?"
     rf"|({_SIGN})\s+(?:reals?\s+)?(?:numbers?\s+)?({_LIST})|reals?\s+(?:numbers?\s+)?({_LIST})"
 )
 """Variables with what they are: ``a, b be positive real numbers``, ``positive reals a, b``."""
@@ -66,6 +97,10 @@ _LEAN = re.compile(
 _BINDER = re.compile(r"[({]([^(){}:]*):\s*((?:[^(){}]|\([^()]*\))*)[)}]")
 _AND = re.compile(r"\s*,?\s*\b(?:(?:and\s+)?(?:with|such\s+that|satisfying|satisfy)|,\s*and)\b\s*")
 
+_NOT_REAL = re.compile(
+    r"(?i)\b(?:positive|negative|all|any|some|are|be|for|the|distinct|of)\s+(integers?|natural\s+numbers?|rationals?)\b"
+)
+_UNNAMED = re.compile(r"\bfor\s+(?:all|every)\s+(?:real\s+)?values?$")
 _KINDS = rf"((?:(?:distinct|different|real|equal|double|repeated|{_SIGN}|and)\s+)*)"
 _PLACE = (
     r"(?:(?:lying\s+|lie\s+)?(?:in|on|inside)\s+(?:the\s+(?:open\s+|closed\s+)?interval\s+)?([\[(][^\[\]()]+[\])])"
@@ -75,15 +110,28 @@ _PLACE = (
 _COUNTED = re.compile(
     r"(?:[Tt]he\s+)?(?:(?:quadratic|cubic)\s+)?(?:(?:equation|polynomial|(system)(?:\s+of\s+equations)?)\s+)?(.+?)"
     rf"\s+(?:has|have|to\s+have)\s+(an?\b|no\b|only\s+one|both|{QUANTITY}|{'|'.join(COUNTS)}|[2-6]|)\s*(?:its\s+)?"
-    rf"{_KINDS}(?:roots?|solutions?|zeros?)(?:\s+(?:in|for)\s+({LISTED}))?(?:\s+(?:{_PLACE}|of\s+(opposite)\s+signs?))?",
+    rf"{_KINDS}(?:root|solution|zero)(s?)(?:\s+(?:which|that)\s+are\s+((?:real|and|{_SIGN}|\s)+))?(?:\s+(?:in|for)\s+({LISTED}))?"
+    rf"(?:\s+(?:{_PLACE}|of\s+(opposite)\s+signs?))?",
     re.DOTALL,
 )
 _SEPARATED = re.compile(
     rf"(?:the\s+)?(?:equation\s+)?(.+?)\s+(?:has|have)\s+one\s+root\s+{_PLACE}\s+and\s+(?:the\s+other|one)(?:\s+root)?\s+{_PLACE}",
     re.DOTALL,
 )
+_SOLVABLE = re.compile(
+    r"(?=.*\bboth\b)(?:the\s+)?(?:equations\s+)?(.+=.+?)\s+and\s+(.+=.+?)\s+(?:are\s+)?both\s+(?:solvable|have\s+(?:a\s+)?(?:real\s+)?(?:solution|root)s?)"
+)
+_CURVE = (
+    r"(?:an?\s+|the\s+)?(?:straight\s+)?(?:(?:line|curve|circle|parabola|ellipse|hyperbola|graph)\s+)?"
+    r"(?:of\s+|with\s+equation\s+)?"
+)
+_MEETING = re.compile(
+    rf"(?=.*\b(?:meet|intersect|cut|touch|tangent))(?:is\s+)?{_CURVE}(.+?=.+?)\s+(?:is\s+)?(?:an?\s+)?(meets?|intersects?|cuts?|touch(?:es)?|tangent\s+to)\s+{_CURVE}(.+?=.+?)"
+    rf"(?:\s+(?:at|in)\s+(no|only\s+one|{QUANTITY}|{'|'.join(COUNTS)})(?:\s+(?:distinct|different|real))*\s+points?)?"
+)
 _ALWAYS = re.compile(
-    rf"(?:is\s+)?(.+?)\s+(?:is\s+)?(?:always\s+)?({_SIGN})(?:\s+(for\s+(?:all|every|any)\b.*))?", re.DOTALL
+    rf"(?:is\s+)?(?:the\s+(?:expression|function|quantity|polynomial)\s+)?(.+?)\s+(?:(?:is|be|will\s+be)\s+)?(?:always\s+)?({_SIGN})(?:\s+(for\s+(?:all|every|any)\b.*))?",
+    re.DOTALL,
 )
 _BOUND = re.compile(
     rf"(?:[∃∀]|\b(?:[Ff]or\s+(?:all|every|any|some)|{THERE}|ex|all|exists|forall|Ex|All|Exists|ForAll)\b)"
@@ -91,37 +139,46 @@ _BOUND = re.compile(
 )
 """The variables of a quantifier."""
 _CALL = re.compile(
-    r"(?:\w+\.)?(n?solve\w*|reduce_\w+|prove|QuantifierElimination|SemiAlgebraic)\((.*)\)\s*[;:]?", re.DOTALL
+    r"(?:\w+(?:\.|:-))?(?:SolveTools\[)?(\w*solve\w*|reduce_\w+|prove|QuantifierElimination|SemiAlgebraic)\]?\((.*)\)\s*[;:]?",
+    re.DOTALL,
 )
+_ASSUMES = re.compile(r"\s*(Assuming|(?:Full)?Simplify|Refine)\[(.*)\]\s*", re.DOTALL)
+_WITHIN = re.compile(r"(?:domain\s*=\s*)?Interval(?:\.([LR]?)open)?\(\s*([^,()]+),\s*([^,()]+)\)")
+"""An interval of SymPy."""
 _DOMAIN = re.compile(r"(?:domain\s*=\s*)?S?\.?Reals|real\b|\w+\s*=\s*(?:True|False|real)")
-_NAMES = re.compile(rf"(?:{WORD}|[\[({{]\s*(?:{WORD}(?:\s*,\s*{WORD})*)?\s*[\])}}])")
+_NAMES = re.compile(rf"(?:{LISTED}|[\[({{]\s*(?:{LISTED}(?:\s*,\s*{LISTED})*)?\s*[\])}}])")
 
 _GOAL = re.compile(
     r"(?i)\s*(?:(?:find|what\s+is|determine)\s+)?(?:the\s+)?(?:(min|max)(?:imum|imi[sz]e|imal|(?=:?\s+[-\w|]))"
-    r"(?:\s+(?:possible\s+)?value)?(?:\s+of)?|(least|smallest|lowest|greatest|largest|highest)\s+(?:possible\s+)?value\s+of):?\s+"
+    r"(?:\s+(?:possible\s+)?value)?(?:\s+of)?|(least|smallest|lowest|greatest|largest|highest)\s+(?:possible\s+)?value\s+of):?\s+(?:f\s*\([\w\s,]*\)\s*=\s*)?"
 )
+_EXTREME = re.compile(
+    rf"(?i)\s*(?:find|determine)\s+(?:the\s+)?(?:numbers?\s+)?{_LIST}\s+(?:satisfying\s+(?:the\s+equation\s+)?(?P<given>.+?)\s+)?"
+    r"(?:such|so)\s+that\s+(?P<goal>.+?)\s+is\s+(?:an?\s+|as\s+)?(?:(?P<max>max|large)|min|small)(?:imum|imal|imi[sz]ed)?"
+    r"(?:\s+as\s+possible)?(?P<rest>\s.+)?"
+)
+"""Variables that are sought where something is greatest or least."""
 _FIRST = re.compile(
     r"(?is)\s*(?:given|if|let|suppose|for)\s+(?:that\s+)?(.+?)[,.;]?\s+(?:then\s+)?((?:find|what\s+is|determine|minimi[sz]e|maximi[sz]e)\s.+)"
 )
 """What is given in front of an optimum that is asked for."""
 _SUBJECT = re.compile(
-    r"(?is)(.+?),?\s+(?:subject\s+to|s\.\s?t\.|such\s+that|given|where|when|for|with|over|on|if(?!.*\bthen\b)):?\s+(.+)"
+    r"(?is)(.+?),?\s+(?:subject\s+to(?:\s+the\s+(?:constraints?|conditions?))?(?:\s+that)?|s\.\s?t\.|such\s+that|given|where|when|for|with|over|on|if(?!.*\bthen\b)):?\s+(.+)"
 )
 _INTERVAL = re.compile(r"\s*[\[(][^()\[\]<>=≤≥]*,[^()\[\]<>=≤≥]*[\])]\s*")
 _RELATED = re.compile(r"[<>=≤≥≠∈]")
 
 
-@dataclass(frozen=True, slots=True)
-class Question:
-    """What a text asks, as a formula, the variables that are sought."""
-
-    formula: str
-    names: tuple[str, ...] = ()
-
-
 def plainly(text: str) -> Question:
     """A question in words as a formula. Roots are counted as different values of x, or of the only variable that is not
     sought; what is to be proved holds for all values of its variables."""
+    if (command := last_command(text)) != text:
+        return plainly(command)
+    call = _ASSUMES.fullmatch(text)
+    given = [*split(call[2])] if call else []
+    if call and len(given) == 2 and "->" not in given[1]:
+        condition, stated = given if call[1] == "Assuming" else reversed(given)
+        return plainly(stated.replace("$Assumptions", condition))._replace(assumed=condition)
     short = _typed(text.strip()) if len(text) < LONGEST else ""
     if not short:
         return Question(text)
@@ -129,6 +186,8 @@ def plainly(text: str) -> Question:
         return Question(stated)
     if call := _CALL.fullmatch(short):
         return _called(call[1], call[2])
+    if sort := _NOT_REAL.search(short):
+        raise InputError(f"all variables are real, {sort[1]} cannot be asked for")
     short = short.rstrip(" ?.")
     for pattern, put in _STOCK:
         short = re.sub(rf"^{pattern}", put, short, flags=re.IGNORECASE)
@@ -138,20 +197,21 @@ def plainly(text: str) -> Question:
     begins = _ASKED.match(short)
     rest, listed = (short[begins.end() :], begins[2] or begins[3] or "") if begins else (short, "")
     names = tuple(re.findall(rf"\b(?!and\b){LISTED}", listed))
-    formula = _separated(rest, names) or _counted(rest, names) or _always(rest)
+    for name in names:
+        rest = re.sub(rf"\b{name}\(", f"{name}*(", rest)
+    if unnamed := _UNNAMED.search(rest):
+        others = {*_names(rest[: unnamed.start()])}.difference(names)
+        if len(others) != 1:
+            raise InputError(f"{unnamed[0]}: the name of a variable expected behind it, as in for all real values of x")
+        rest = f"{rest} of {others.pop()}"
+    kinds = _separated, _counted, _solvable, _meeting
+    formula = next((said for kind in kinds if (said := kind(rest, names))), None) or _always(rest)
+    if formula is None and _TRIANGLE.match(rest):
+        formula = premise(rest)
     if formula is None and begins:
         formula = re.sub(r"\s*\bholds?$", "", rest)
         formula = _closed(formula) if begins[1] else formula
     return Question(text) if formula is None else Question(formula, names)
-
-
-def parts(text: str) -> list[str]:
-    """What stands between the commas outside of brackets."""
-    depth, listed = 0, [""]
-    for character in text:
-        depth += (character in "([{") - (character in ")]}")
-        listed[-1:] = [listed[-1], ""] if character == "," and not depth else [listed[-1] + character]
-    return [part.strip() for part in listed]
 
 
 # --- what is to be proved ---------------------------------------------------------------------------------
@@ -173,9 +233,10 @@ def premise(text: str) -> str:
     """Conditions in words: ``x, y be positive reals with x + y = 1`` is ``x, y > 0 and x + y = 1``."""
 
     def sorted_names(match: re.Match[str]) -> str:
-        listed, sign = match[1] or match[4] or match[5], match[2] or match[3]
-        names = ", ".join(re.findall(rf"\b(?!and\b){LISTED}", listed))
-        return f"{names} {SIGNED[sign]} 0 " if sign else ""
+        listed, sign = match[1] or match[5] or match[6], match[3] or match[4]
+        names = re.findall(rf"\b(?!and\b){LISTED}", listed)
+        said = [f"{', '.join(names)} {SIGNED[sign]} 0 "] if sign else []
+        return " and ".join([*said, *(f"{a} /= {b} " for a, b in combinations(names, 2) if match[2])])
 
     text = _TRIANGLE.sub(r"\1, \2, \3 > 0 and \1 + \2 > \3 and \2 + \3 > \1 and \3 + \1 > \2", text)
     return re.sub(r"^\s*and\b|\band\s*$", "", _AND.sub(" and ", _SORTED.sub(sorted_names, text))).strip(" ,")
@@ -209,19 +270,46 @@ def _names(text: str) -> tuple[str, ...]:
 
 
 # --- roots ------------------------------------------------------------------------------------------------
-def _equation(text: str, sought: tuple[str, ...], named: str | None) -> tuple[str, str] | None:
+def _equation(text: str, sought: tuple[str, ...], named: str | None = None) -> tuple[str, str] | None:
     """An equation and the variable that it is to be solved for; None where that is not clear."""
-    others = {*_names(text)}.difference(sought)
+    whole = {*_names(text)}
+    others = whole.difference(sought)
     has_x = any(other.endswith("x") for other in others if len(other) < 4)  # x, ax
     name = named or ("x" if has_x else others.pop() if len(others) == 1 else "")
+    misspelt = {other for one in (name, *sought) for other in (one.swapcase(), f"{one}2", f"{one}3")}  # x2 for x^2
+    if name and (meant := whole & misspelt):
+        raise InputError(f"{', '.join(sorted(meant))}: a power is written x^2, and small letters are not capitals")
     if not name or re.search(r"[<>≤≥≠∃∀]|\b(?:and|or|ex|all|for|if)\b", text):
         return None
     return (text if "=" in text else f"{text} = 0"), name
 
 
-def _powers(equation: str, name: str) -> set[str]:
-    """The exponents of the variable, as they stand there."""
-    return {*re.findall(rf"{name}\s*(?:\^|\*\*)\s*\(?(\d+)", equation)}
+def _difference(equation: str) -> Poly | None:
+    """The polynomial that an equation says is zero; None where it has none."""
+    from qe.io.text import read_polynomial
+
+    left, _, right = equation.partition("=")
+    try:
+        return read_polynomial(f"({left}) - ({right})")[0]
+    except InputError:
+        return None
+
+
+def _spelt(text: str, names: str) -> str:
+    """The text with the signs of the products that are read in it behind a quantifier of these names."""
+    from qe.io.text_parser import products
+
+    made = products(f"ex {names}. {text}")
+    return re.sub(WORD, lambda word: "*".join(word[0]) if word[0] in made else word[0], text)
+
+
+def _quadratic(equation: str, name: str) -> str | None:
+    """That an equation is quadratic in a variable, as a condition: empty where it surely is; None where it is not."""
+    poly = _difference(_spelt(equation, name))
+    if poly is None or name not in poly.ring.index or poly.degree(poly.ring.index[name]) != 2:
+        return None
+    lead = poly.leading(poly.ring.index[name])
+    return "" if lead.is_constant else str(atom(lead, Relation.NE))
 
 
 def _counted(text: str, sought: tuple[str, ...]) -> str | None:
@@ -229,7 +317,7 @@ def _counted(text: str, sought: tuple[str, ...]) -> str | None:
     counted = _COUNTED.fullmatch(text)
     if counted is None:
         return None
-    is_system, whose, many, kinds, named, *place, opposite = counted.groups()
+    is_system, whose, many, kinds, several, also, named, *place, opposite = counted.groups()
     if is_system:
         names = [name for name in _names(whose) if name not in sought]
         exists = {"": "ex", "a": "ex", "an": "ex", "no": "not ex"}.get(many)
@@ -238,33 +326,82 @@ def _counted(text: str, sought: tuple[str, ...]) -> str | None:
     if solved is None:
         return None
     equation, name = solved
-    degrees = _powers(equation, name)
-    if (many == "both" or opposite) and not degrees <= {"2"}:
-        return None
-    if opposite:
-        return f"(ex {name}. {equation} and {name} < 0) and (ex {name}. {equation} and {name} > 0)"
-    if re.search("equal|double|repeated", kinds):  # of a quadratic polynomial
-        return f"exactly one {name}. {equation}" if degrees == {"2"} else None
-    signs = [f"{name} {SIGNED[word]} 0" for word in re.findall(_SIGN, kinds)]
+    signs = [f"{name} {SIGNED[word]} 0" for word in re.findall(_SIGN, f"{kinds} {also or ''}")]
     conditions = [condition for condition in (*signs, _place(name, place)) if condition]
-    if many == "both":
-        every = f" and all {name}. {equation} -> {' and '.join(conditions)}" if conditions else ""
-        return f"(ex {name}. {equation}){every}"
+    many = "both" if not many and several and conditions else many
+    is_double = re.search("equal|double|repeated", kinds)
+    if many == "both" or opposite or is_double:
+        quadratic = _quadratic(equation, name)
+        if quadratic is None:
+            return None
+        said = [quadratic] if quadratic else []
+        if opposite:
+            said += [f"(ex {name}. {equation} and {name} {side} 0)" for side in "<>"]
+        elif is_double:
+            said += [f"exactly one {name}. {equation}"]
+        else:
+            said += [f"(ex {name}. {equation})"]
+            said += [f"all {name}. {equation} -> {' and '.join(conditions)}"] if conditions else []
+        return " and ".join(said)
     many = "at least two" if not many and re.search("distinct|different", kinds) else many
-    kind = {"": "ex", "a": "ex", "an": "ex", "no": "not ex", "only one": "exactly one"}.get(" ".join(many.split()))
-    kind = kind or ("" if " " in many else "exactly ") + many
-    return f"{kind} {name}. {' and '.join((equation, *conditions))}"
+    return f"{_many(many)} {name}. {' and '.join((equation, *conditions))}"
+
+
+def _many(said: str) -> str:
+    """The quantifier for words that say how many."""
+    said = " ".join(said.split())
+    kind = {"": "ex", "a": "ex", "an": "ex", "no": "not ex", "only one": "exactly one"}.get(said)
+    return kind or ("" if " " in said else "exactly ") + said
 
 
 def _separated(text: str, sought: tuple[str, ...]) -> str | None:
     """``f has one root smaller than 2 and the other greater than 2``; None for another text."""
     two = _SEPARATED.fullmatch(text)
-    solved = _equation(two[1], sought, None) if two else None
-    if two is None or solved is None or not _powers(*solved) <= {"2"}:
+    solved = _equation(two[1], sought) if two else None
+    if two is None or solved is None or (quadratic := _quadratic(*solved)) is None:
         return None
     equation, name = solved
     places = _place(name, list(two.groups()[1:6])), _place(name, list(two.groups()[6:]))
-    return " and ".join(f"(ex {name}. {equation} and {place})" for place in places)
+    said = [f"(ex {name}. {equation} and {place})" for place in places]
+    return " and ".join([quadratic, *said] if quadratic else said)
+
+
+def _solvable(text: str, sought: tuple[str, ...]) -> str | None:
+    """``f and g are both solvable``; None for another text."""
+    both = _SOLVABLE.fullmatch(text)
+    solved = [_equation(one, sought) for one in both.groups()] if both else []
+    listed = [f"(ex {one[1]}. {one[0]})" for one in solved if one]
+    return " and ".join(listed) if len(listed) == 2 else None
+
+
+def _meeting(text: str, sought: tuple[str, ...]) -> str | None:
+    """``the line y = f meets the curve g in two points``; None for another text. The line is tangent where the equation
+    for x has a double root."""
+    meeting = _MEETING.fullmatch(text)
+    if meeting is None:
+        return None
+    first, how, second, many = meeting.groups()
+    for graph, other in ((first, second), (second, first)):
+        y, _, value = (part.strip() for part in graph.partition("="))
+        if re.fullmatch(WORD, y) and y not in _names(value):
+            left, _, right = other.partition("=")
+            solved = _equation(f"({left}) - ({right}) + 0*({value})", (*sought, y))
+            if solved is None:
+                return None
+            x = solved[1]
+            if how.startswith(("touch", "tangent")):
+                return None if many else _tangent(y, value, other, x)
+            return f"{_many(many)} {x}. ex {y}. {first} and {second}" if many else f"ex {x}, {y}. {first} and {second}"
+    return None
+
+
+def _tangent(y: str, value: str, curve: str, x: str) -> str | None:
+    value, _, curve = _spelt(f"{value} = {curve}", f"{x}, {y}").partition("=")
+    equation = re.sub(rf"\b{y}\b", f"({value})", curve)
+    poly = _difference(equation)
+    if poly is None or x not in poly.ring.index:
+        return None
+    return f"ex {x}. {equation} and {atom(poly.derivative(poly.ring.index[x]), Relation.EQ)}"
 
 
 def _place(name: str, place: list[str | None]) -> str:
@@ -292,7 +429,10 @@ def _always(text: str) -> str | None:
 def optimum_in_words(text: str) -> tuple[int, str, str] | None:
     """1 or -1 (0 without a word for it), the objective and the conditions of ``minimize f subject to c``, ``f, c``,
     ``given c, find the least value of f``; None for another text."""
-    text = text.rstrip(" ?.")
+    text = re.sub(r"(?i)\bthe\s+(product|sum)\s+of\s+(\w+)\s+and\s+(\w+)", _operation, _typed(text).rstrip(" ?."))
+    if extreme := _EXTREME.fullmatch(text):
+        wanted = f"{'maximum' if extreme['max'] else 'minimum'} of {extreme['goal']}{extreme['rest'] or ''}"
+        text = wanted + (f" subject to {extreme['given']}" if extreme["given"] else "")
     if (given := _FIRST.fullmatch(text)) and (inner := optimum_in_words(given[2])):
         sign, objective, conditions = inner
         return sign, objective, ", ".join((premise(given[1]), *([conditions] * (conditions != "true"))))
@@ -310,9 +450,13 @@ def optimum_in_words(text: str) -> tuple[int, str, str] | None:
     return sign, objective, conditions
 
 
+def _operation(said: re.Match[str]) -> str:
+    return f"{said[2]} {'*' if said[1].lower() == 'product' else '+'} {said[3]}"
+
+
 def _at_comma(text: str) -> tuple[str, str]:
     """An objective and the conditions that follow it: ``x + 1/x, x > 0``."""
-    first, *rest = parts(text)
+    first, *rest = split(text)
     is_pair = rest and _RELATED.search(", ".join(rest)) and not _RELATED.search(first)
     return (first, ", ".join(rest)) if is_pair else (text, "true")
 
@@ -320,16 +464,24 @@ def _at_comma(text: str) -> tuple[str, str]:
 # --- other systems ----------------------------------------------------------------------------------------
 def _called(command: str, inside: str) -> Question:
     """``solve([f, g], [x, y])`` of SymPy and Maple, ``solve(f, g)`` and ``prove(f)`` of Z3."""
-    given = [part for part in parts(inside) if not _DOMAIN.fullmatch(part)]
+    given = [re.sub(r"^symbols?\s*=\s*", "", part) for part in split(inside) if not _DOMAIN.fullmatch(part)]
+    within = _WITHIN.fullmatch(given[-1]) if len(given) > 2 else None
+    given = given[:-1] if within else given
     names: list[str] = []
     while len(given) > 1 and _NAMES.fullmatch(given[-1]):
-        names = [*re.findall(WORD, given.pop()), *names]
+        listed = re.findall(LISTED, given.pop())
+        names = [*(unquoted(name) if name[0] == "`" else name for name in listed), *names]
     formula = given[0] if len(given) == 1 else f"{{{', '.join(given)}}}"
+    if within and len(names) == 1:
+        left, right = "[" if within[1] in (None, "R") else "(", "]" if within[1] in (None, "L") else ")"
+        related = _RELATED.search(formula) or re.match(r"(?:Eq|Ne|[GL][te]|And|Or)\(", formula)
+        formula = f"{formula if related else f'{formula} = 0'} and {names[0]} in {left}{within[2]}, {within[3]}{right}"
     return Question(_closed(formula) if command == "prove" else formula, tuple(names))
 
 
 def _typed(text: str) -> str:
     """The text without the LaTeX between dollars, if there are words around it: ``for which $a$ is $a^{2} \\ge 1$``."""
+    text = re.sub(r"(?<!\\)\\[()]", "$", text) if re.search(r"[A-Za-z]{3}[^\\]*\\\(", text) else text
     if "$" not in text or not re.search(r"[A-Za-z]", re.sub(r"\$[^$]*\$", "", text)):
         return text
     from qe.io.latex_lexer import as_text

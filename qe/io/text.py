@@ -13,14 +13,16 @@ from typing import cast
 
 from qe.errors import ParseError
 from qe.exact.ring import Poly
+from qe.formula.build import conj
 from qe.formula.syntax import Formula, Relation
 from qe.io.lowering import lower, lower_term
 from qe.io.parser import TERM, parsed
-from qe.io.questions import optimum_in_words, parts, plainly
+from qe.io.substitution import over_one_ring
 from qe.io.surface import FUNCTIONS, Comparison, Every, Meet, Name, Node, Number, Quantification, Term
 from qe.io.text_errors import Failing, SyntaxFailure
 from qe.io.text_lexer import COMMANDS, KEYWORDS
 from qe.io.text_parser import is_latex, parser_of, products
+from qe.io.text_words import Question, in_words, split
 from qe.io.tokens import without_collections
 from qe.io.total import Total
 from qe.spelling import CONSTANTS as CONSTANTS
@@ -31,11 +33,16 @@ _ASKED = re.compile(
 )
 _WHERE = re.compile(r"(.*?)[,;]?\s+where\s+((?:[A-Z]\s*=[^=<>≤≥≠]+,\s*)*[A-Z]\s*=[^=<>≤≥≠]+)", re.DOTALL)
 _DEFINED = re.compile(r"([A-Z])\s*=\s*([^=]+?)\s*(?:,(?=\s*[A-Z]\s*=)|$)")
-_OPTIMUM = re.compile(r"\s*(N?M(?:in|ax)(?:imize|Value)|ArgM(?:in|ax))\[(.*)\]\s*", re.DOTALL)
+_OPTIMUM = re.compile(
+    r"\s*(?:N?(M(?:in|ax))(?:imize|Value)\[|Arg(M(?:in|ax))\[|(m(?:in|ax))imi[sz]e\()(.*)[\])]\s*;?\s*", re.DOTALL
+)
+_RANGE = re.compile(rf"({WORD})\s*=\s*(.+?)\s*\.\.\s*(.+)")
+_POINT = ("Reals", "point", "locus", "coordinates")
+"""What an optimum may be asked with, besides conditions and variables."""
 
 
 def read(text: str, *, source: str = "<text>", known: Container[str] = (), total_division: bool = False) -> Formula:
-    """The formula that ``text`` means. ``source`` names the text in messages.
+    """The formula that ``text`` means, with what it assumes. ``source`` names the text in messages.
 
     ``pi`` is the number, a variable with a name of its own (``qe.formula.numbers``), and a word whose letters are names
     a product, unless it stands between backquotes or is ``known`` to be a variable (as programs know theirs). A
@@ -43,12 +50,35 @@ def read(text: str, *, source: str = "<text>", known: Container[str] = (), total
     of, as in SMT-LIB, and the formula holds if it holds for some choice of these values. Raises ``ParseError``, one
     line with line, column and what was expected.
     """
-    text = _written_out(_quoting(text, known))
+    return conj(reversed(read_posed(text, source=source, known=known, total_division=total_division)))
+
+
+def read_posed(
+    text: str, *, source: str = "<text>", known: Container[str] = (), total_division: bool = False
+) -> tuple[Formula, Formula]:
+    """As ``read``; what the text assumes, c of ``Assuming[c, f]`` and of ``Refine[f, c]``, by itself, TRUE without;
+    over one ring."""
+    question = _question(_quoting(text, known))
+    texts = [_written_out(question.formula), *([question.assumed] if question.assumed else [])]
+    formula, *assumed = over_one_ring(*(_lowered(part, source, known, total_division) for part in texts))
+    return formula, conj(assumed)
+
+
+def _lowered(text: str, source: str, known: Container[str], total_division: bool) -> Formula:
     fail = Failing(text, source)
     total = Total() if total_division else None
     with without_collections(text):
         formula = lower(_node(text, fail), fail, meet=_no_constants(fail, known), total=total)
     return formula if total is None else total.checked(formula)
+
+
+def _question(text: str) -> Question:
+    """What a text asks, which may be words or a script."""
+    if not in_words(text):
+        return Question(text)
+    from qe.io.questions import plainly
+
+    return plainly(text)
 
 
 def _node(text: str, fail: Failing) -> Node:
@@ -67,7 +97,6 @@ def _node(text: str, fail: Failing) -> Node:
 
 def _written_out(text: str) -> str:
     """The text as a formula, without the capitals that it ends with: ``D > 0 where D = b^2 - 4*a*c``."""
-    text = plainly(text).formula
     where = _WHERE.fullmatch(text) if "where" in text else None
     if where is None:
         return text
@@ -107,7 +136,7 @@ def read_term(text: str) -> Term:
 
 def read_node(text: str) -> Node:
     """The formula that ``text`` is, as a surface tree. Names and errors as for ``read``."""
-    text = _written_out(text)
+    text = _written_out(_question(text).formula)
     return _node(text, Failing(text, "<text>"))
 
 
@@ -119,23 +148,31 @@ def outermost(text: str) -> tuple[bool, tuple[str, ...]] | None:
 
 def solved_for(text: str) -> tuple[str, ...] | None:
     """The variables of a command, x and y of ``Reduce[f, {x, y}, Reals]``, or of a question in words; None without."""
-    asked = _ASKED.fullmatch(text)
-    return plainly(text).names or None if asked is None else tuple(re.findall(WORD, asked[1]))
+    question = _question(text)
+    asked = _ASKED.fullmatch(question.formula)
+    return question.names or None if asked is None else tuple(re.findall(WORD, asked[1]))
 
 
 def optimum_asked(text: str) -> tuple[int, str, str, tuple[str, ...]] | None:
-    """1 or -1, the objective, the constraints and the variables of ``Minimize[{f, c}, {x, y}]`` or ``Maximize``; for
-    ``minimize f subject to c`` (0 without its first word) all are variables, and none are told."""
-    if words := optimum_in_words(text):
-        return (*words, ())
-    if (command := _OPTIMUM.fullmatch(text)) is None:
-        return None
-    objective, *constraints = [part for part in parts(command[2]) if part != "Reals"]
-    variables = constraints.pop() if constraints else ""
-    if objective.startswith("{"):
-        objective, *constraints = parts(objective[1:-1])
-    sign = 1 if "Min" in command[1] else -1
-    return sign, objective, f"{{{', '.join(constraints)}}}" if constraints else "true", (*re.findall(WORD, variables),)
+    """1 or -1, the objective, the constraints and the variables of ``Minimize[{f, c}, {x, y}]``, ``Maximize`` and
+    ``minimize(f, x=0..1)``; for ``minimize f subject to c`` (0 without its first word) all are variables, and none are
+    listed."""
+    from qe.io.questions import last_command, optimum_in_words
+
+    call = _OPTIMUM.fullmatch(text := last_command(text))
+    given = [part for part in split(call[4]) if part not in _POINT] if call else []
+    if call is None or (call[3] and len(given) < 2):
+        return (*words, ()) if (words := optimum_in_words(text)) else None
+    objective, *others = [one for part in given for one in (split(part[1:-1]) if part[:1] in "[{" else (part,))]
+    variables: list[str] = []
+    constraints: list[str] = []
+    for other in others:
+        ranges = _RANGE.fullmatch(other)
+        variables += [ranges[1]] if ranges else [other] if re.fullmatch(WORD, other) else []
+        constraints += [f"{ranges[2]} <= {ranges[1]} <= {ranges[3]}"] if ranges else []
+        constraints += [other] if not ranges and other not in variables else []
+    sign = 1 if (call[1] or call[2] or call[3]).lower() == "min" else -1
+    return sign, objective, f"{{{', '.join(constraints)}}}" if constraints else "true", (*dict.fromkeys(variables),)
 
 
 def with_products(texts: Sequence[str], listed: Collection[str] = ()) -> tuple[list[str], list[str]]:
@@ -158,7 +195,9 @@ def _noted(joined: Collection[str]) -> list[str]:
 
 def understood(text: str) -> tuple[str, tuple[str, ...]]:
     """A text, or what is read where it asks in words, with notes on this and on what is read as a product."""
-    meant, joined = plainly(text).formula, _noted(products(_written_out(text)))
+    question = _question(text)
+    meant, joined = question.formula, _noted(products(_written_out(question.formula)))
+    meant = f"{meant}, assuming {question.assumed}" if question.assumed else meant
     return meant, (*([f"read as {meant}"] if meant != text else ()), *joined)
 
 

@@ -122,6 +122,10 @@ class TextParser(QuantifiedParser):
                 self.refuse_others()
         if self.token.kind == "REALS":
             self.advance()
+        while self.token.kind in ("COMMA", "NAME"):  # Backsubstitution -> True
+            if self.advance().kind == "NAME":
+                self.take("IMPLIES")
+                self.take("TRUE", "FALSE")
         self.take("RIGHT")
         return node
 

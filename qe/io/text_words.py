@@ -3,8 +3,11 @@
 from __future__ import annotations
 
 import re
+from collections.abc import Iterator
+from typing import NamedTuple
 
-from qe.spelling import QUOTED, WORD
+from qe.io.surface import FUNCTIONS
+from qe.spelling import KEYWORDS, QUOTED, WORD
 
 LISTED = rf"(?:{WORD}|{QUOTED})"
 COUNTS = {"one": "1", "two": "2", "three": "3", "four": "4", "five": "5", "six": "6"}
@@ -44,6 +47,35 @@ NO_VARIABLES = {
     ),
 }
 """Words in front of the variables of a quantifier that would otherwise be taken for a variable."""
+
+LONGEST = 4000
+"""Longer texts are none that somebody typed."""
+_ORDINARY = frozenset(map(str.lower, (*KEYWORDS, *FUNCTIONS)))
+
+
+class Question(NamedTuple):
+    """What a text asks, as a formula, the variables that are sought, and what it assumes."""
+
+    formula: str
+    names: tuple[str, ...] = ()
+    assumed: str = ""
+
+
+def in_words(text: str) -> bool:
+    """Whether a text has words that are no part of formulas: it may ask in words, or be a script."""
+    words = re.findall("[^\\W\\d_]{3,}", text) if len(text) <= LONGEST else ()
+    return ":=" in text or any(word.lower() not in _ORDINARY for word in words)
+
+
+def split(text: str, signs: str = ",") -> Iterator[str]:
+    """What stands between these signs outside of brackets."""
+    depth, start = 0, 0
+    for at, character in enumerate(text):
+        depth += (character in "([{") - (character in ")]}")
+        if character in signs and not depth:
+            yield text[start:at].strip()
+            start = at + 1
+    yield text[start:].strip()
 
 
 def quantity(value: str) -> str:

@@ -57,11 +57,45 @@ from qe.io.questions import plainly
         ("x^3 - x + a has both roots greater than 1", "x^3 - x + a has both roots greater than 1"),
         ("x^4 = a has roots of opposite sign", "x^4 = a has roots of opposite sign"),
         ("the system x^2 = a has no solution", "the system x^2 = a has no solution"),
+        ("The system x + y = 1, x - y = a", "x + y = 1 and x - y = a"),
+        ("kx^2+[k+2]x-3=0 has roots which are real and positive. Find the values k may have.", "-8<k<0 and k^2+16k+4>=0"),
+        ("Find all values of $k$ for $kx^2+2x-3=0$ with positive roots.", "-1/3 <= k < 0"),
+        ("Range of $k$ for which both the roots of the equation $kx^2-2x+k=0$ are positive.", "0 < k <= 1"),
+        ("x^3 + kx + k has positive roots", "x^3 + kx + k has positive roots"),
+        ("x^2 + mx + 1 has all roots real", "m^2 >= 4"),
+        ("x2 + kx + 1 = 0 has two roots", "x2 + kx + 1 = 0 has two roots"),
+        ("Find what values of m is the line y=mx+5 a tangent to the parabola y=4-x^2?", "m^2 = 4"),
+        ("for which k does the line y = x + k touch the curve y^2 = 4x?", "k = 1"),
+        ("for which m is the line y = mx tangent to the hyperbola x*y = 1?", "false"),
+        ("for which k does the line y = kx + 1 intersect x^2 - y^2 = 1 at two points?", "k^2 < 2 and k^2 /= 1"),
+        ("Find the range of the constant $k$ for which $y = kx$ meets the curve $y = x ^ { 2 } + 1$", "k^2 >= 4"),
+        ("for which a does the line y = a meet the parabola y = x^2 at only one point?", "a = 0"),
+        ("y = x^2 + k and y = 2x meet in two points", "k < 1"),
+        ("x + y = k meets x - y = 1", "x + y = k meets x - y = 1"),
+        ("for which m are x^2 + mx + 1 = 0 and x^2 + x + m = 0 both solvable?", "m <= -2"),
+        ("the range of values of k for which the expression kx - x^2 - 1 will be negative for all real x", "k^2 < 4"),
+        ("What is the set of values of $p$ for which $p(x^2+2) < 2x^2+6x+1$ for all real values", "p < -1"),
+        ("x < y for all real values", "x < y for all real values"),
+        ("Prove (a+b)(1/a+1/b) >= 4 where a,b are positive.", "true"),
+        ("Prove that $2ab \\le a^2 + b^2$. Note: $a$ and $b$ are positive real numbers.", "true"),
+        ("$x,y$ are unequal positive quantities, prove that $2xy < x^2 + y^2$", "true"),
+        ("Prove that for x > 0 we have x + 1/x >= 2", "true"),
+        ("If x and y positive integers, show: x + y >= 2", "If x and y positive integers, show: x + y >= 2"),
+        ("a, b, c are sides of a triangle and a > b + c", "false"),
+        ("solveset(x**2 - 2*x - 15, symbol = x, domain = Interval(-oo, 0))", "x = -3"),
+        ("solveset(x**2 <= 9, x, Interval.open(-3, 5))", "-3 < x <= 3"),
+        ("solveset(x**2 <= 9, x, domain=Interval.Ropen(-3, 3))", "-3 <= x < 3"),
+        ("solveset(x**2 <= 9, x, Interval(-3, 5, True, False))", "solveset(x**2 <= 9, x, Interval(-3, 5, True, False))"),
+        ("nonlinsolve([x*y - 2, x - y - 1], x, y)", "x*y = 2 and x - y = 1"),
+        ("SolveTools:-SemiAlgebraic({a*x < b}, [x])", "a*x < b"),
+        ("Assuming[m > 0, Reduce[{$Assumptions, x^2 < m^2}]]", "m > 0 and x^2 < m^2"),
+        ("Refine[x > m, m > 0 && x^2 < m]", "x > m and m > 0 and x^2 < m"),
+        ("Reduce[x^2 < 1, x, Reals, Cubics -> True, Quartics -> False]", "x^2 < 1"),
     ),
 )  # fmt: skip
 def test_what_is_read(typed: str, meant: str) -> None:
     if typed == meant:
-        with pytest.raises(qe.ParseError):
+        with pytest.raises(qe.InputError):
             text.read(typed)
         return
     assert qe.equivalent(text.read(typed), text.read(meant))
@@ -119,6 +153,12 @@ def test_both_roots_and_one_on_either_side(p: int, q: int, bound: int) -> None:
         "If x > 0, find the minimum of x + 1/x",
         "Given x, y > 0 and x*y = 1, what is the least value of x + y?",
         "minimum of x + 1/x for positive x",
+        "find x and y such that x + y is a minimum subject to the constraint that xy = 1, x > 0",
+        "Find numbers \\(x\\) and y satisfying x*y = 1, x > 0 such that the sum of x and y is as small as possible",
+        "Find the minimum of \\( f(x, y) = x + y \\) subject to the constraint \\( x*y=1 \\), x > 0",
+        "minimize(x + 1/x, x=1/2..3, locus)",
+        "minimize(x + y, [x*y = 1, x >= 0], [x, y])",
+        "f := x + y; c := [x*y = 1, x >= 0]; minimize(f, c, [x, y])",
     ),
 )
 def test_optima(typed: str) -> None:
