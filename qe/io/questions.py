@@ -13,8 +13,10 @@ from qe.errors import InputError
 from qe.exact.ring import Poly
 from qe.formula.build import atom
 from qe.formula.relation import Relation
+from qe.io.parser import TERM, parsed
 from qe.io.scripts import last_command
 from qe.io.surface import FUNCTIONS
+from qe.io.text_errors import Failing
 from qe.io.text_words import COUNTS, LISTED, NO_VARIABLES, QUANTITY, SIGNED, THERE, Question, split
 from qe.spelling import KEYWORDS, WORD, unquoted
 
@@ -175,10 +177,10 @@ def plainly(text: str) -> Question:
     if (command := last_command(text)) != text:
         return plainly(command)
     call = _ASSUMES.fullmatch(text)
-    given = [*split(call[2])] if call else []
-    if call and len(given) == 2 and "->" not in given[1]:
-        condition, stated = given if call[1] == "Assuming" else reversed(given)
-        return plainly(stated.replace("$Assumptions", condition))._replace(assumed=condition)
+    two = [*split(call[2])] if call else []
+    if call and len(two) == 2 and "->" not in two[1]:
+        condition, body = two if call[1] == "Assuming" else reversed(two)
+        return plainly(body.replace("$Assumptions", condition))._replace(assumed=condition)
     short = _typed(text.strip()) if len(text) < LONGEST else ""
     if not short:
         return Question(text)
@@ -204,8 +206,8 @@ def plainly(text: str) -> Question:
         if len(others) != 1:
             raise InputError(f"{unnamed[0]}: the name of a variable expected behind it, as in for all real values of x")
         rest = f"{rest} of {others.pop()}"
-    kinds = _separated, _counted, _solvable, _meeting
-    formula = next((said for kind in kinds if (said := kind(rest, names))), None) or _always(rest)
+    formula = _separated(rest, names) or _counted(rest, names) or _solvable(rest, names) or _meeting(rest, names)
+    formula = formula or _always(rest)
     if formula is None and _TRIANGLE.match(rest):
         formula = premise(rest)
     if formula is None and begins:
@@ -286,11 +288,13 @@ def _equation(text: str, sought: tuple[str, ...], named: str | None = None) -> t
 
 def _difference(equation: str) -> Poly | None:
     """The polynomial that an equation says is zero; None where it has none."""
-    from qe.io.text import read_polynomial
+    from qe.io.lowering import lower_term
+    from qe.io.text_parser import TextParser
 
     left, _, right = equation.partition("=")
+    fail = Failing(f"({left}) - ({right})", "<text>")
     try:
-        return read_polynomial(f"({left}) - ({right})")[0]
+        return lower_term(parsed(TextParser, fail.text, fail, TERM), fail).poly
     except InputError:
         return None
 

@@ -41,7 +41,7 @@ def last_command(text: str) -> str:
     idle = set[str]()
     known: list[str] = []
     conditions: list[str] = []
-    asked = ""
+    question = ""
 
     def put(part: str) -> str:
         idle.difference_update(re.findall(WORD, part))
@@ -50,8 +50,8 @@ def last_command(text: str) -> str:
     statements = [statement.strip(" \t\r:") for statement in split(_COMMENT.sub("", text), ";\n")]
     statements = [statement for statement in statements if statement and not _IDLE.fullmatch(statement)]
     for statement in statements:
-        if asked:
-            raise InputError(f"{shown(asked)}: one question at the end of a script expected")
+        if question:
+            raise InputError(f"{shown(question)}: one question at the end of a script expected")
         declared, added, said = (kind.fullmatch(statement) for kind in (_DECLARED, _ADDED, _SAID))
         if declared:
             names, signs = _variables(declared)
@@ -63,12 +63,12 @@ def last_command(text: str) -> str:
             values[said[1]] = value if value[0] in "[{" else f"({value})"
             idle.add(said[1])
         else:
-            asked = put(said[3][1:-1] if said and said[2] else said[3] if said else statement)
-    if bool(asked) is bool(conditions) or idle:
+            question = put(said[3][1:-1] if said and said[2] else said[3] if said else statement)
+    if bool(question) is bool(conditions) or idle:
         unused = f", and a use of {', '.join(sorted(idle))}" if idle else ""
         raise InputError(f"one question at the end of a script expected{unused}")
-    asked = asked or f"{{{', '.join(conditions)}}}"
-    return f"Assuming[{' && '.join(known)}, {asked}]" if known else asked
+    question = question or f"{{{', '.join(conditions)}}}"
+    return f"Assuming[{' && '.join(known)}, {question}]" if known else question
 
 
 def _variables(declared: re.Match[str]) -> tuple[dict[str, str], list[str]]:

@@ -157,7 +157,8 @@ def optimum_asked(text: str) -> tuple[int, str, str, tuple[str, ...]] | None:
     """1 or -1, the objective, the constraints and the variables of ``Minimize[{f, c}, {x, y}]``, ``Maximize`` and
     ``minimize(f, x=0..1)``; for ``minimize f subject to c`` (0 without its first word) all are variables, and none are
     listed."""
-    from qe.io.questions import last_command, optimum_in_words
+    from qe.io.questions import optimum_in_words
+    from qe.io.scripts import last_command
 
     call = _OPTIMUM.fullmatch(text := last_command(text))
     given = [part for part in split(call[4]) if part not in _POINT] if call else []
