@@ -100,7 +100,7 @@ _BINDER = re.compile(r"[({]([^(){}:]*):\s*((?:[^(){}]|\([^()]*\))*)[)}]")
 _AND = re.compile(r"\s*,?\s*\b(?:(?:and\s+)?(?:with|such\s+that|satisfying|satisfy)|,\s*and)\b\s*")
 
 _NOT_REAL = re.compile(
-    r"(?i)\b(?:positive|negative|all|any|some|are|be|for|the|distinct|of)\s+(integers?|natural\s+numbers?|rationals?)\b"
+    r"(?i)\b(?:positive|negative|all|any|some|are|be|an|for|the|distinct|of)\s+(integers?|natural\s+numbers?|rationals?)\b"
 )
 _UNNAMED = re.compile(r"\bfor\s+(?:all|every)\s+(?:real\s+)?values?$")
 _KINDS = rf"((?:(?:distinct|different|real|equal|double|repeated|{_SIGN}|and)\s+)*)"
@@ -141,7 +141,7 @@ _BOUND = re.compile(
 )
 """The variables of a quantifier."""
 _CALL = re.compile(
-    r"(?:\w+(?:\.|:-))?(?:SolveTools\[)?(\w*solve\w*|reduce_\w+|prove|QuantifierElimination|SemiAlgebraic)\]?\((.*)\)\s*[;:]?",
+    r"(?:\w+(?:\.|:-))?(?:SolveTools\[)?((?:n|f|lin|nonlin)?solve\w*|reduce_\w+|prove|QuantifierElimination|SemiAlgebraic)\]?\((.*)\)\s*[;:]?",
     re.DOTALL,
 )
 _ASSUMES = re.compile(r"\s*(Assuming|(?:Full)?Simplify|Refine)\[(.*)\]\s*", re.DOTALL)

@@ -137,7 +137,6 @@ _BOUND = re.compile(
     rf"|\{{\s*\(?\s*({_LIST})\s*(?:\}}|\)?\s*(?:∈|in\b|\||:(?!=)))"
 )
 """What is quantified in brackets or listed in braces: ``ForAll[x, …]``, ``{x, y}``, ``{(x, y) | …}``."""
-_OPERATIONS = frozenset(("PLUS", "MINUS", "TIMES", "OVER", "POWER"))
 _OPENS, _CLOSING = frozenset(("OPEN", "LEFT", "BEGIN")), frozenset(("CLOSE", "RIGHT", "END"))
 _FORMULAS = frozenset(kinds("_ RELATION IN AND OR NOT IMPLIES IFF QUANTIFIER TRUE FALSE COMMA DOT THEN ELSE"))
 """Tokens that terms do not have; all but relations begin another comparison."""
@@ -239,14 +238,12 @@ def quoted_name(text: str, at: int) -> str:
 @dataclass(slots=True)
 class _Bracket:
     """Inside a bracket: whether a division stands in front of what comes, whether it is a formula, whether a relation
-    stands before in the same comparison, where, behind it, a space first stands for a product, and whether it is a
-    ``square`` one that stands for a round one: ``x*[y + 1]``."""
+    stands before in the same comparison, and where, behind it, a space first stands for a product."""
 
     divided: bool = False
     is_formula: bool = False
     compared: bool = False
     spaced: int = -1
-    square: bool = False
 
 
 class State:
@@ -279,9 +276,6 @@ class State:
 
     def put(self, kind: str, value: str, at: int) -> Iterator[Token]:
         """The token, with the sign of a product in front of it where that is left out."""
-        square = kind == "LEFT" and self.last in _OPERATIONS
-        if square or (kind == "RIGHT" and self.brackets[-1].square):
-            kind = "OPEN" if square else "CLOSE"
         if kind == "NAME" and self.header and value in NO_VARIABLES and _ANOTHER.match(self.text, at + len(value)):
             raise SyntaxFailure(NO_VARIABLES[value], at)
         if kind == "AND" and self.spoken and self.header:  # for all x and y
@@ -322,7 +316,6 @@ class State:
             message = "a condition between two relations has a product without *, or an operator is missing here"
             raise SyntaxFailure(message, self.brackets[-1].spaced)
         self.note(kind)
-        self.brackets[-1].square |= square
         self.word = value
         yield Token(kind, value, at)
 

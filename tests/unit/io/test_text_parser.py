@@ -86,8 +86,6 @@ def test_what_could_have_stood_there_is_exactly_what_can_be_read() -> None:
                 continue  # behind a name they are a call, which no name can promise
             if text[-1].isalnum() and kind in ("OPEN", "NAME", "RADICAL"):
                 continue  # a product without a sign, which is none for the parser
-            if kind == "LEFT" and text[-1] in "^-":
-                continue  # a round bracket behind a sign, a list elsewhere
             parser = TextParser(f"{text} {sign}")
             with suppress(SyntaxFailure):
                 parser.whole()
