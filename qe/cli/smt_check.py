@@ -5,6 +5,7 @@ from __future__ import annotations
 import time
 from collections.abc import Callable, Iterable, Sequence
 from copy import copy
+from fractions import Fraction
 from functools import partial
 from typing import TYPE_CHECKING, NamedTuple, TypeAlias
 
@@ -101,8 +102,7 @@ class Checks:
         return result
 
     def attempt(self, nodes: Sequence[s.Node], total: Total, close: Closing) -> Result:
-        from qe.api.eliminate import unproved
-        from qe.api.limits import performed
+        from qe.formula.build import exists
         from qe.processes.execution import perform
         from qe.processes.limits import Limits
 
@@ -113,6 +113,11 @@ class Checks:
         try:
             if self.is_short(nodes, left):
                 formula = self.script.formula_of(nodes, total)
+                if close is exists and (point := _simple_point(formula)) is not None:
+                    return Result("sat", point=point, total=total)
+                from qe.api.eliminate import unproved
+                from qe.api.limits import performed
+
                 sentence = close(formula.free, formula)
                 return _result(performed(partial(unproved, sentence), sentence, limits), formula, total)
             return perform(partial(_attempted, self.sent(), nodes, total, close), limits, at_once=True)
@@ -139,6 +144,15 @@ class Checks:
         script.assertions, script.objectives, script.levels = [], [], []
         script.globals, script.forms, script.expanded = {}, {}, {}
         return script
+
+
+def _simple_point(formula: Formula) -> dict[str, Number] | None:
+    """Values that are all 0, 1, 2 or -1 and satisfy a formula: they need no engine, which takes longer to load."""
+    from qe.formula.evaluate import holds_at
+
+    points = [dict.fromkeys(formula.free, Fraction(value)) for value in (0, 1, 2, -1)]
+    found = (point for point in points if formula.is_quantifier_free and holds_at(formula, point))
+    return next(found, None)
 
 
 def unwatched() -> None:

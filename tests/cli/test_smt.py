@@ -303,3 +303,27 @@ def test_a_script_under_a_limit_is_answered(tmp_path: Path, limit: tuple[str, st
 )
 def test_objectives(script: str, expected: str) -> None:
     assert expected in " ".join(" ".join(answers(script)).split())
+
+
+@pytest.mark.parametrize(
+    ("asserted", "answer", "loaded"),
+    (
+        ("(> (* x x) y 1)", "sat", False),
+        ("(= x (+ y 1))", "sat", True),
+        ("(> 0 (+ (* x x) (* y y)))", "unsat", True),
+    ),
+)
+def test_where_a_simple_point_will_do_no_engine_is_loaded(
+    asserted: str, answer: str, loaded: bool, tmp_path: Path
+) -> None:
+    script = tmp_path / "simple.smt2"
+    script.write_text(f"(declare-const x Real)(declare-const y Real)(assert {asserted})(check-sat)")
+    lines = (f"main(['smt', {str(script)!r}])", "print('qe.engine.run' in sys.modules)")
+    ran = subprocess.run(
+        [sys.executable, "-c", "\n".join(("import sys", "from qe.cli.app import main", *lines))],
+        capture_output=True,
+        text=True,
+        timeout=60,
+        check=True,
+    )
+    assert ran.stdout.split() == [answer, str(loaded)]
