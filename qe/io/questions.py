@@ -31,7 +31,7 @@ _SHOW = r"(?:(?:prove|show|verify|check|decide|determine)\s+(?:that|whether|if)|
 _PROVE = r"(?:prove|show|verify)(?:\s+that)?"
 _VALUES = (
     r"(?:(?:(?:two|all|exact|possible|real|the|set|range|values?|constants?|that|of)\s+)*(?:values?|range|constants?)\s+"
-    r"(?:(?:of|that|the|constant)\s+)*)"
+    r"(?:(?:of|for|that|the|constant)\s+)*)"
 )
 _SIGN = rf"(?:{'|'.join(SIGNED)})"
 _STOCK = (
@@ -110,7 +110,7 @@ _PLACE = (
     r"|(?:that\s+are\s+)?(greater|larger|bigger|less|smaller)\s+than\s+(\S+))"
 )
 _COUNTED = re.compile(
-    r"(?:[Tt]he\s+)?(?:(?:quadratic|cubic)\s+)?(?:(?:equation|polynomial|(system)(?:\s+of\s+equations)?)\s+)?(.+?)"
+    r"(?:[Tt]he\s+)?(?:(?:quadratic|cubic)\s+)?(?:(?:equation|polynomial|function|(system)(?:\s+of\s+equations)?)\s+)?(?:f\s*\(\w\)\s*=)?(.+?)"
     rf"\s+(?:has|have|to\s+have)\s+(an?\b|no\b|only\s+one|both|{QUANTITY}|{'|'.join(COUNTS)}|[2-6]|)\s*(?:its\s+)?"
     rf"{_KINDS}(?:root|solution|zero)(s?)(?:\s+(?:which|that)\s+are\s+((?:real|and|{_SIGN}|\s)+))?(?:\s+(?:in|for)\s+({LISTED}))?"
     rf"(?:\s+(?:{_PLACE}|of\s+(opposite)\s+signs?))?",

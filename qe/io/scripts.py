@@ -29,14 +29,15 @@ _SAID = re.compile(rf"(?:({WORD})\s*:?=(?![=>])\s*|(print)\s*(?=\())(.+)", re.DO
 """A definition, or what is printed."""
 _ADDED = re.compile(r"\w+\.(?:add|append|insert)\((.*)\)", re.DOTALL)
 _CALL = re.compile(r"[A-Za-z][\w.:\-]*[(\[]")
-_ASSUMED = re.compile(r"(\w+)\s*=\s*True|domain\s*=\s*['\"](\w+)['\"]")
+_ASSUMED = re.compile(r"(\w+)\s*=\s*(?:True|1)|domain\s*=\s*['\"](\w+)['\"]")
 
 
 def last_command(text: str) -> str:
     """The command that a script ends in; another text as it is. Raises ``InputError`` for a statement that has no
     meaning here."""
-    if len(text) > LONGEST or not _BEGINS.match(text):
-        return text
+    typed = "\n".join(re.findall(r"^(?:>>>|\.\.\.) (.*)", text, re.MULTILINE)) or text
+    if len(text) > LONGEST or not _BEGINS.match(typed):
+        return typed
     values: dict[str, str] = {}
     idle = set[str]()
     known: list[str] = []
@@ -47,7 +48,7 @@ def last_command(text: str) -> str:
         idle.difference_update(re.findall(WORD, part))
         return re.sub(WORD, lambda word: values.get(word[0], word[0]), part)
 
-    statements = [statement.strip(" \t\r:") for statement in split(_COMMENT.sub("", text), ";\n")]
+    statements = [statement.strip(" \t\r:") for statement in split(_COMMENT.sub("", typed), ";\n")]
     statements = [statement for statement in statements if statement and not _IDLE.fullmatch(statement)]
     for statement in statements:
         if question:

@@ -63,6 +63,8 @@ from qe.io.questions import plainly
         ("Range of $k$ for which both the roots of the equation $kx^2-2x+k=0$ are positive.", "0 < k <= 1"),
         ("x^3 + kx + k has positive roots", "x^3 + kx + k has positive roots"),
         ("x^2 + mx + 1 has all roots real", "m^2 >= 4"),
+        ("$x^2 + (m-3)x + m = 0$ has two roots. Determine the range of values for $m$.", "m^2 - 10*m > -9"),
+        ("Determine m if the function f(x)=x^2+(m-1)x+2-m has two real distinct roots", "(m - 1)^2 > 4*(2 - m)"),
         ("x2 + kx + 1 = 0 has two roots", "x2 + kx + 1 = 0 has two roots"),
         ("dsolve(y' = y, y)", "dsolve(y' = y, y)"),
         ("x^2 - [x] = 2", "x^2 - [x] = 2"),  # the integer part

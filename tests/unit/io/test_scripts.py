@@ -24,6 +24,7 @@ from tests.tables import each
     ("fs := {x + y < 1, x > y}\ns := SolveTools:-SemiAlgebraic(fs, [x, y]);", "x + y < 1 and x > y"),
     ("load_package redlog; rlset ofsf; phi := ex(x, a*x^2 + 1 = 0); rlqe phi;", "a < 0"),
     ("[ a comment ]\n(x,y)\n1\n(Ey)[ x = y^2 ].\nfinish", "x >= 0"),
+    (">>> var('w',real=1)\nw\n>>> solve(abs(w) +\n... 6>12)\nOr(w < -6, w > 6)", "w^2 > 36"),
     ("a = 1 + b; Reduce[2 a > 0]", "2*(1 + b) > 0"),
 )
 def test_what_is_read(typed: str, meant: str) -> None:
