@@ -200,7 +200,7 @@ def plainly(text: str) -> Question:
     rest, listed = (short[begins.end() :], begins[2] or begins[3] or "") if begins else (short, "")
     names = tuple(re.findall(rf"\b(?!and\b){LISTED}", listed))
     for name in names:
-        rest = re.sub(rf"\b{name}\(", f"{name}*(", rest)
+        rest = re.sub(rf"(?<!\w)({re.escape(name)})\(", r"\1*(", rest)
     if unnamed := _UNNAMED.search(rest):
         others = {*_names(rest[: unnamed.start()])}.difference(names)
         if len(others) != 1:
@@ -401,7 +401,7 @@ def _meeting(text: str, sought: tuple[str, ...]) -> str | None:
 
 def _tangent(y: str, value: str, curve: str, x: str) -> str | None:
     value, _, curve = _spelt(f"{value} = {curve}", f"{x}, {y}").partition("=")
-    equation = re.sub(rf"\b{y}\b", f"({value})", curve)
+    equation = re.sub(rf"\b{y}\b", lambda _: f"({value})", curve)
     poly = _difference(equation)
     if poly is None or x not in poly.ring.index:
         return None

@@ -131,7 +131,7 @@ _VARIABLE = re.compile(
     rf"(?:^|[-+*/^(\[{{<>=≤≥≠,.:&|]|\b(?:and|or|not)\b)\s*({WORD})(?=\s*(?:[\^*≤≥≠]|/(?!\\)|=(?!>)|<(?!-|=>)|>))"
 )
 """A name alone in front of an operator."""
-_LIST = rf"{LISTED}(?:\s*,?\s*{LISTED})*"
+_LIST = rf"{LISTED}(?:(?:\s*,\s*|\s+){LISTED})*"
 _BOUND = re.compile(
     rf"(?:[∃∀]|\b(?:{'|'.join(word for word in KEYWORDS if KEYWORDS[word] == 'QUANTIFIER')}))\s*[(\[]\s*({_LIST})\s*,"
     rf"|\{{\s*\(?\s*({_LIST})\s*(?:\}}|\)?\s*(?:∈|in\b|\||:(?!=)))"

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import re
+import time
 import warnings
 from decimal import Decimal
 from fractions import Fraction
@@ -545,3 +546,11 @@ def test_witnesses_said_that_terms_alone_end_too_early(typed: str, truth: str) -
     """They are equations with zero for all doors."""
     with pytest.raises(qe.InputError, match=f"the formula is {truth} as it stands"):
         qe.witnesses(typed)
+
+
+def test_words_in_the_bracket_of_a_quantifier_were_taken_apart_for_ever() -> None:
+    """Every way to cut them into names was tried: 2^n of them."""
+    begun = time.perf_counter()
+    with pytest.raises(qe.ParseError):
+        text.read("ForAll(of all the values of k for which the straight line intersects the parabola")
+    assert time.perf_counter() - begun < 5

@@ -78,6 +78,7 @@ from qe.io.questions import plainly
         ("for which a does the line y = a meet the parabola y = x^2 at only one point?", "a = 0"),
         ("y = x^2 + k and y = 2x meet in two points", "k < 1"),
         ("x + y = k meets x - y = 1", "x + y = k meets x - y = 1"),
+        (r"y = x + \e is tangent to y = x^2", r"y = x + \e is tangent to y = x^2"),
         ("for which m are x^2 + mx + 1 = 0 and x^2 + x + m = 0 both solvable?", "m <= -2"),
         ("the range of values of k for which the expression kx - x^2 - 1 will be negative for all real x", "k^2 < 4"),
         ("What is the set of values of $p$ for which $p(x^2+2) < 2x^2+6x+1$ for all real values", "p < -1"),
