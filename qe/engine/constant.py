@@ -36,12 +36,14 @@ ATOMS, LONG = 40, 1000
 """A formula of more atoms is not decided; one of more than ``LONG`` is not even evaluated."""
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(slots=True)
 class Start:
-    """The question that an answer is to, and where its steps begin in the log."""
+    """The question that an answer is to, and where its steps begin in the log. ``whole``: an answer to it of which no
+    part can be left out."""
 
     question: Formula
     mark: int
+    whole: Formula | None = None
 
 
 def constant(formula: Formula, context: Context, start: Start | None) -> Formula:

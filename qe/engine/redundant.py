@@ -12,6 +12,7 @@ import random
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from fractions import Fraction
+from typing import Protocol
 
 from qe.elimination.protocol import Context
 from qe.errors import Unable
@@ -60,12 +61,13 @@ CLOSE = tuple(map(Fraction, ("0", "1/2", "-1/2", "1/3", "-2/3", "1", "-1", "5/4"
 @dataclass(frozen=True, slots=True)
 class Part:
     """An argument of a conjunction or disjunction, its ``place``, and the conditions under which it matters: ``those``
-    that hold there, and others that fail."""
+    that hold there, and others that fail. ``may``: that it matters is not excluded where it was looked for."""
 
     place: Place
     formula: Formula
     of_conjunction: bool
     those: tuple[tuple[Formula, bool], ...]
+    may: bool
 
     @property
     def conditions(self) -> tuple[Formula, ...]:
@@ -96,10 +98,10 @@ def without_redundant_parts(
     points = Points(conj((known, formula)).free, context.budget.check)
     options = context.options.with_(without=context.options.without | {Stage.SAMPLES, Stage.POSITION})
     budget, kept, patience = context.budget.part(WORK), set[Formula](), PATIENCE
-    while (
-        patience and budget.used <= WORK and (part := next(_unsettled(formula, points, kept, known), None)) is not None
-    ):
-        sentence = part.sentence
+    while patience and budget.used <= WORK:
+        part, sentence = next(_unsettled(formula, points, kept, known), (None, TRUE))
+        if part is None:
+            break
         linear = all(a.poly.total_degree <= 1 for a in atoms(sentence))
         try:
             outcome = context.decide(sentence, options, budget.part(LINEAR_WORK if linear else QUESTION_WORK))
@@ -107,7 +109,7 @@ def without_redundant_parts(
             context.budget.check("shorten")
             outcome = None
         if outcome is not None and outcome.formula == FALSE:
-            formula = _dropped(formula, part, outcome.nested(sentence), context, known)
+            formula = dropped(formula, part, outcome.nested(sentence), context, known)
             patience = PATIENCE
         else:
             kept.add(sentence)
@@ -122,7 +124,7 @@ def _without_excluded_parts(formula: Formula, context: Context, points: Points |
         return formula
     points, kept, terms = points or Points(formula.free, context.budget.check), set[Formula](), MOST_TERMS_ALONE
     points.fill(FIRST)
-    parts = iter(_by_size(formula, points))
+    parts = iter(by_size(formula, points))
     while (part := next(parts, None)) is not None:
         # What mattered once has fewer conditions, not more, after another part is dropped: it is not looked at again.
         if part.formula in kept:
@@ -132,14 +134,14 @@ def _without_excluded_parts(formula: Formula, context: Context, points: Points |
             break
         if simplify(conj(part.conditions), watch=context.budget.check) == FALSE:
             nested = Nested(part.sentence, (Step("simplification", part.sentence, FALSE),), FALSE)
-            formula = _dropped(formula, part, nested, context)
-            parts = iter(_by_size(formula, points))
+            formula = dropped(formula, part, nested, context)
+            parts = iter(by_size(formula, points))
         else:
             kept.add(part.formula)
     return formula
 
 
-def _dropped(formula: Formula, part: Part, nested: Nested, context: Context, known: Formula = TRUE) -> Formula:
+def dropped(formula: Formula, part: Part, nested: Nested, context: Context, known: Formula = TRUE) -> Formula:
     """The formula without a part, simplified; ``nested`` says why."""
     proof = {"at": list(part.place), "steps": nested}
     rest = without_part(formula, part.place)
@@ -172,41 +174,58 @@ def is_cheap_sentence(sentence: Formula) -> bool:
     return degree <= DEGREES.get(len(bound_variables(sentence)), MANY_DEGREE) and _is_suited(sentence)
 
 
-def _unsettled(formula: Formula, points: Points, kept: set[Formula], known: Formula = TRUE) -> Iterator[Part]:
-    """The parts worth a question of which no known point says that they matter, largest first."""
+def _unsettled(
+    formula: Formula, points: Points, kept: set[Formula], known: Formula = TRUE
+) -> Iterator[tuple[Part, Formula]]:
+    """The parts worth a question of which no known point says that they matter, largest first, with the question."""
     equations = {a for a in atoms(formula) if isinstance(a, Atom) and a.relation is Relation.EQ}
     for count in (FIRST, COARSE, COARSE + FINE):
         if not points.fill(count) and count < COARSE + FINE:
             continue
-        parts = [p for p in _by_size(formula, points, known) if is_cheap_sentence(p.sentence)]
+        parts = by_size(formula, points, known)
         parts = [p for p in parts if not (p.of_conjunction and p.formula in equations)]  # these are hardly redundant
-        if not parts:
+        if not any(is_cheap_sentence(p.sentence) for p in parts):
             return
-    yield from (p for p in parts if p.sentence not in kept)
+    asked = ((part, part.sentence) for part in parts)
+    yield from (pair for pair in asked if pair[1] not in kept and is_cheap_sentence(pair[1]))
 
 
-def _by_size(formula: Formula, points: Points, known: Formula = TRUE) -> list[Part]:
+class Places(Protocol):
+    """Points or cells: where a formula is known to hold there, and where to fail, as bits."""
+
+    def where(self, formula: Formula) -> tuple[int, int]: ...
+
+
+def by_size(formula: Formula, points: Places, known: Formula = TRUE) -> list[Part]:
     """The parts of which no point tells that they matter, largest first."""
-    parts = _silent(formula, points, (), () if known == TRUE else ((known, True),), points.holding(known))
+    (holds, fails), (everywhere, _) = points.where(known), points.where(TRUE)
+    parts = _silent(formula, points, (), () if known == TRUE else ((known, True),), (holds, everywhere & ~fails))
     return sorted(parts, key=lambda part: length(part.formula), reverse=True)
 
 
 def _silent(
-    formula: Formula, points: Points, place: Place, above: tuple[tuple[Formula, bool], ...], there: int
+    formula: Formula,
+    points: Places,
+    place: Place,
+    above: tuple[tuple[Formula, bool], ...],
+    there: tuple[int, int],
 ) -> Iterator[Part]:
-    """The parts below a place that matters under conditions, at the points ``there``, and that no point tells."""
+    """The parts below a place that matters under conditions, and that no point tells; ``there``: the points where the
+    conditions are known to hold, and those where they may."""
     if not isinstance(formula, And | Or):
         return
     both = isinstance(formula, And)
-    masks = [points.holding(a) for a in formula.args]
-    for k, (arg, mask) in enumerate(zip(formula.args, masks, strict=True)):
-        here = there
-        for j, other in enumerate(masks):
-            here = here if j == k else here & other if both else here & ~other
+    known = [points.where(a) for a in formula.args]
+    masks = known if both else [(fails, holds) for holds, fails in known]
+    for k, (arg, (met, missed)) in enumerate(zip(formula.args, masks, strict=True)):
+        sure, may = there
+        for j, (others, not_others) in enumerate(masks):
+            if j != k:
+                sure, may = sure & others, may & ~not_others
         conditions = (*above, *((r, both) for j, r in enumerate(formula.args) if j != k))
-        if not here & (~mask if both else mask):
-            yield Part((*place, k), arg, both, (*conditions, (arg, not both)))
-        yield from _silent(arg, points, (*place, k), conditions, here)
+        if not sure & missed:
+            yield Part((*place, k), arg, both, (*conditions, (arg, not both)), bool(may & ~met))
+        yield from _silent(arg, points, (*place, k), conditions, (sure, may))
 
 
 @dataclass(slots=True)
@@ -264,12 +283,21 @@ class Points:
         self.known[formula] = len(self.listed), mask
         return mask
 
+    def where(self, formula: Formula) -> tuple[int, int]:
+        """Where the formula holds, and where it fails."""
+        holds = self.holding(formula)
+        return holds, (1 << len(self.listed)) - 1 & ~holds
+
     def signs_of(self, poly: Poly) -> tuple[int, int]:
         """Where a polynomial is negative, and where it is positive."""
         seen, below, above = self.signs.get(poly, (0, 0, 0))
         self.watch()
-        for k in range(seen, len(self.listed)):
-            sign = poly.sign_at([self.listed[k].get(name, 0) for name in poly.ring.names])
-            below, above = below | (sign < 0) << k, above | (sign > 0) << k
+        names = poly.ring.names
+        for k, point in enumerate(self.listed[seen:], start=seen):
+            sign = poly.sign_at([point.get(name, 0) for name in names])
+            if sign < 0:
+                below |= 1 << k
+            elif sign > 0:
+                above |= 1 << k
         self.signs[poly] = len(self.listed), below, above
         return below, above

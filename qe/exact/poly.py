@@ -390,9 +390,8 @@ class Poly:
     def _at(self, values: Iterable[Fraction | int]) -> fmpq | fmpz | int:
         if self.ring.size == 0:
             return self.constant_value()
-        point = [v if isinstance(v, int) else fmpq(v.numerator, v.denominator) for v in reversed([*values])]
-        whole = not any(isinstance(v, fmpq) for v in point)
-        return self.p(*point) if whole else fmpq_mpoly(self.p, self.ring.qctx)(*map(fmpq, point))
+        point = [v if type(v) is int else fmpq(v.numerator, v.denominator) for v in reversed([*values])]
+        return fmpq_mpoly(self.p, self.ring.qctx)(*point) if fmpq in map(type, point) else self.p(*point)
 
     def at_quotient(self, i: int, top: Poly, bottom: Poly, *, most_terms: int | None = None) -> Poly:
         """bottom^d * p(x_i = top/bottom), a polynomial, where d is the degree of p in x_i.

@@ -1,5 +1,6 @@
 """Work in this process and others: limits hold, of several methods the first answers, no process is left over."""
 
+import gc
 import os
 import pickle
 import signal
@@ -16,6 +17,7 @@ import pytest
 import qe
 from qe.errors import BudgetExceeded, InputError, InternalError, QEError, Unable
 from qe.formula.features import may_block, text_may_block
+from qe.options import Budget
 from qe.processes.channel import Channel, WorkerDied
 from qe.processes.execution import COLD, HERE, SWITCH, grace_of, perform
 from qe.processes.limits import Limits
@@ -298,3 +300,18 @@ def test_a_process_ends_when_its_parent_was_gone_before_it_looked() -> None:
 @each((0.1, 0.05), (2.0, 0.1), (3.0, 0.15), (60.0, 0.25), (None, 0.25))
 def test_a_limit_of_two_seconds_was_overrun_by_an_eighth(timeout: float | None, grace: float) -> None:
     assert grace_of(timeout) == pytest.approx(grace)
+
+
+def test_the_garbage_collector_is_as_it_was_after_a_question() -> None:
+    """Also after one inside another, and one that fails."""
+    before = gc.get_threshold()
+
+    def outer_question(_: Budget) -> tuple[object, ...]:
+        inner = perform(lambda _: gc.get_threshold(), Limits(process=False))
+        return inner, gc.get_threshold()
+
+    inner, during = perform(outer_question, Limits(process=False))
+    assert inner == during != before
+    with pytest.raises(ZeroDivisionError):
+        perform(lambda _: 1 // 0, Limits(process=False))
+    assert gc.get_threshold() == before
