@@ -12,18 +12,21 @@ import random
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from fractions import Fraction
-from typing import Protocol
+from functools import cache
 
 from qe.elimination.protocol import Context
 from qe.errors import Unable
 from qe.exact.number import Values
-from qe.exact.ring import Poly
-from qe.formula.build import conj, disj, exists
+from qe.exact.ring import Poly, Ring
+from qe.formula.build import conj, convert, disj, exists
 from qe.formula.features import length
 from qe.formula.normal import nnf
 from qe.formula.syntax import FALSE, TRUE, And, Atom, Constant, Formula, Or, Relation
 from qe.formula.traverse import atoms, bound_variables
 from qe.options import Stage
+from qe.proof.cells import CellTable
+from qe.proof.on_demand import OnDemand, Repeated
+from qe.proof.run_log import RunLog
 from qe.proof.step import Nested, Place, Step
 from qe.simplifier.simplify import simplify
 
@@ -56,6 +59,10 @@ many more."""
 SMALL = (0, 0, 0, 1, 1, -1, -1, 2, -2, 3, -3, 5)
 CLOSE = tuple(map(Fraction, ("0", "1/2", "-1/2", "1/3", "-2/3", "1", "-1", "5/4", "-7/2", "9")))
 """The coordinates of these points."""
+
+
+Where = Callable[[Formula], tuple[int, int]]
+"""Where a formula is known to hold, and where it is known to fail, as bits: at points or on cells."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -109,7 +116,7 @@ def without_redundant_parts(
             context.budget.check("shorten")
             outcome = None
         if outcome is not None and outcome.formula == FALSE:
-            formula = dropped(formula, part, outcome.nested(sentence), context, known)
+            formula = _dropped(formula, part, outcome.nested(sentence), context, known)
             patience = PATIENCE
         else:
             kept.add(sentence)
@@ -118,13 +125,39 @@ def without_redundant_parts(
     return _without_excluded_parts(formula, context, points)
 
 
+def without_parts_on_cells(formula: Formula, table: CellTable, context: Context) -> tuple[Formula, bool]:
+    """The formula without parts that matter on no cell of a decomposition of its space, as far as the signs of its
+    polynomials are known there; and whether they are known well enough to show that all others matter."""
+    from qe.decomposition.sign_table import Columns, free_cells
+    from qe.elimination.cad import decomposed
+
+    ring, columns, options = Ring.of(table.order), Columns(free_cells(table), table.factors), context.options
+    where: Where = cache(lambda part: columns.where(convert(part, ring)))
+    while True:
+        context.budget.check("shorten")
+        try:
+            parts = _by_size(formula, where)
+        except KeyError:  # a polynomial came up that is no product of the table's factors
+            return formula, False
+        part = next((part for part in parts if not part.may), None)
+        if part is None:
+            return formula, not parts
+        log = RunLog()
+        if options.certify:
+            decomposed(part.sentence, options, context.budget, log)
+        else:
+            again = OnDemand(Repeated(decomposed, part.sentence, options))
+            log.step("cells", part.sentence, FALSE, evidence={"proof": again})
+        formula = _dropped(formula, part, Nested(part.sentence, tuple(log.steps()), FALSE), context)
+
+
 def _without_excluded_parts(formula: Formula, context: Context, points: Points | None = None) -> Formula:
     """The formula without parts that the signs of its own polynomials exclude: these need not be small for that."""
     if sum(1 for _ in atoms(formula)) > MOST_ATOMS_ALONE:
         return formula
     points, kept, terms = points or Points(formula.free, context.budget.check), set[Formula](), MOST_TERMS_ALONE
     points.fill(FIRST)
-    parts = iter(by_size(formula, points))
+    parts = iter(_by_size(formula, points.where))
     while (part := next(parts, None)) is not None:
         # What mattered once has fewer conditions, not more, after another part is dropped: it is not looked at again.
         if part.formula in kept:
@@ -134,14 +167,14 @@ def _without_excluded_parts(formula: Formula, context: Context, points: Points |
             break
         if simplify(conj(part.conditions), watch=context.budget.check) == FALSE:
             nested = Nested(part.sentence, (Step("simplification", part.sentence, FALSE),), FALSE)
-            formula = dropped(formula, part, nested, context)
-            parts = iter(by_size(formula, points))
+            formula = _dropped(formula, part, nested, context)
+            parts = iter(_by_size(formula, points.where))
         else:
             kept.add(part.formula)
     return formula
 
 
-def dropped(formula: Formula, part: Part, nested: Nested, context: Context, known: Formula = TRUE) -> Formula:
+def _dropped(formula: Formula, part: Part, nested: Nested, context: Context, known: Formula = TRUE) -> Formula:
     """The formula without a part, simplified; ``nested`` says why."""
     proof = {"at": list(part.place), "steps": nested}
     rest = without_part(formula, part.place)
@@ -182,7 +215,7 @@ def _unsettled(
     for count in (FIRST, COARSE, COARSE + FINE):
         if not points.fill(count) and count < COARSE + FINE:
             continue
-        parts = by_size(formula, points, known)
+        parts = _by_size(formula, points.where, known)
         parts = [p for p in parts if not (p.of_conjunction and p.formula in equations)]  # these are hardly redundant
         if not any(is_cheap_sentence(p.sentence) for p in parts):
             return
@@ -190,32 +223,22 @@ def _unsettled(
     yield from (pair for pair in asked if pair[1] not in kept and is_cheap_sentence(pair[1]))
 
 
-class Places(Protocol):
-    """Points or cells: where a formula is known to hold there, and where to fail, as bits."""
-
-    def where(self, formula: Formula) -> tuple[int, int]: ...
-
-
-def by_size(formula: Formula, points: Places, known: Formula = TRUE) -> list[Part]:
+def _by_size(formula: Formula, where: Where, known: Formula = TRUE) -> list[Part]:
     """The parts of which no point tells that they matter, largest first."""
-    (holds, fails), (everywhere, _) = points.where(known), points.where(TRUE)
-    parts = _silent(formula, points, (), () if known == TRUE else ((known, True),), (holds, everywhere & ~fails))
+    (holds, fails), (everywhere, _) = where(known), where(TRUE)
+    parts = _silent(formula, where, (), () if known == TRUE else ((known, True),), (holds, everywhere & ~fails))
     return sorted(parts, key=lambda part: length(part.formula), reverse=True)
 
 
 def _silent(
-    formula: Formula,
-    points: Places,
-    place: Place,
-    above: tuple[tuple[Formula, bool], ...],
-    there: tuple[int, int],
+    formula: Formula, where: Where, place: Place, above: tuple[tuple[Formula, bool], ...], there: tuple[int, int]
 ) -> Iterator[Part]:
     """The parts below a place that matters under conditions, and that no point tells; ``there``: the points where the
     conditions are known to hold, and those where they may."""
     if not isinstance(formula, And | Or):
         return
     both = isinstance(formula, And)
-    known = [points.where(a) for a in formula.args]
+    known = [where(a) for a in formula.args]
     masks = known if both else [(fails, holds) for holds, fails in known]
     for k, (arg, (met, missed)) in enumerate(zip(formula.args, masks, strict=True)):
         sure, may = there
@@ -225,7 +248,7 @@ def _silent(
         conditions = (*above, *((r, both) for j, r in enumerate(formula.args) if j != k))
         if not sure & missed:
             yield Part((*place, k), arg, both, (*conditions, (arg, not both)), bool(may & ~met))
-        yield from _silent(arg, points, (*place, k), conditions, (sure, may))
+        yield from _silent(arg, where, (*place, k), conditions, (sure, may))
 
 
 @dataclass(slots=True)

@@ -9,7 +9,7 @@ from qe.elimination.protocol import Context
 from qe.engine.constant import Start, constant
 from qe.engine.factor_signs import has_products, signs_of_factors
 from qe.engine.implied import affine_hull_first, is_linear_conjunction
-from qe.engine.redundant import without_redundant_parts
+from qe.engine.redundant import without_parts_on_cells, without_redundant_parts
 from qe.engine.strategy import allows
 from qe.engine.untangle import has_equations, untangled, untangled_negation
 from qe.errors import Unable
@@ -59,7 +59,6 @@ def read_off_cells(formula: Formula, context: Context, start: Start | None) -> F
             start.whole = formula
             return formula
     from qe.elimination.cad import decomposed, kept
-    from qe.engine.redundant_on_cells import without_parts_on_cells
 
     work = LONG_WORK if start is not None and length(formula)[1] >= LONG else SHORTEN_WORK
     outcome = decomposed(formula, context.options, context.budget.part(work), RunLog())

@@ -363,15 +363,15 @@ class Poly:
         return value, tuple(listing)
 
     # --- substitution ----------------------------------------------------------------------
-    def at_rational(self, i: int, value: Fraction | int) -> Poly:
+    def at_rational(self, i: int, value: Fraction | int | fmpq) -> Poly:
         """A positive multiple of the polynomial with variable ``i`` set to a rational number."""
-        slot = self.ring.slot(i)
-        number = Fraction(value)
-        if number.denominator == 1:
-            return Poly(self.ring, self.p.subs({slot: number.numerator}))
-        rational = fmpq_mpoly(self.p, self.ring.qctx).subs({slot: fmpq(number.numerator, number.denominator)})
-        scale = number.denominator ** self.degree(i)
-        return Poly(self.ring, self.ring.ctx.from_dict({m: int((c * scale).p) for m, c in rational.terms()}))
+        top, bottom = fmpz(value.numerator), fmpz(value.denominator)
+        if bottom == 1 or not self.p:
+            return self._like(self.p.subs({self.ring.slot(i): top}))
+        image, power = self.leading(i).p, bottom
+        for c in self.coefficients(i)[-2::-1]:
+            image, power = image * top + c.p * power, power * bottom
+        return self._like(image)
 
     def at_rationals(self, values: Mapping[int, Fraction | int]) -> Poly:
         """A positive multiple of the polynomial with these variables set to rational numbers."""

@@ -126,7 +126,7 @@ class Point:
                 else f.at_rationals({i: v for i, v in self._given.items() if f.degree(i)})
             )
             if isinstance(self.value, fmpq) and stored.degree(i):
-                stored = stored.at_rational(i, Fraction(int(self.value.p), int(self.value.q)))
+                stored = stored.at_rational(i, self.value)
             self._reduced[f] = stored
         return stored
 
@@ -154,7 +154,7 @@ class Point:
         """A ball around f, whose variables are algebraic coordinates only, at this working precision."""
         variables = f.variables
         if not variables:
-            return arb(f.constant_value())
+            return arb(f.p.leading_coefficient() if f else 0)
         i = variables[-1]
         x = self.ball(i, bits)
         if len(variables) == 1:

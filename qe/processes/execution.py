@@ -17,10 +17,8 @@ import gc
 import math
 import os
 import sys
-import threading
 import time
-from collections.abc import Callable, Iterator
-from contextlib import contextmanager
+from collections.abc import Callable
 from contextvars import ContextVar
 from functools import partial
 from typing import TypeVar
@@ -45,10 +43,9 @@ limit, between two bounds."""
 SWITCH = "QE_PROCESS"
 """The environment variable that, set to ``off``, keeps all work in the process of the caller."""
 
-SELDOM = 100_000, 20, 50
-"""The thresholds of the garbage collector while a question is worked on."""
-
-_COUNTING, _RUNNING, _USUAL = threading.Lock(), 0, gc.get_threshold()
+SELDOM = 20_000, 20, 50
+"""Thresholds of the garbage collector while a question is worked on: there are few circles of dead objects, and looking
+for them among all that lives took a sixth of the time of small questions."""
 
 Bounds = tuple[float, float]
 """When a limit ends a worker (of ``time.monotonic``), and the MiB that it may have; infinity where none does."""
@@ -155,35 +152,19 @@ def _done_here(
         known.take(message, progress)
 
     token = None if handover is None else OUTER.set(handover)
+    usual = gc.get_threshold()  # of a question inside another it is that already
+    gc.set_threshold(*SELDOM)
     try:
-        with _rarely_collected():
-            return work(Channel(take, deadline, handover))
+        return work(Channel(take, deadline, handover))
     except BudgetExceeded as error:
         if type(error) is not BudgetExceeded:
             raise
         raise WorkerStopped(str(error), limit=error.limit, known=known) from error
     finally:
+        if usual != SELDOM:  # also while another thread has a question
+            gc.set_threshold(*usual)
         if token is not None:
             OUTER.reset(token)
-
-
-@contextmanager
-def _rarely_collected() -> Iterator[None]:
-    """Circles of dead objects are looked for after so many new objects that few questions make them: there are few
-    circles, and looking for them among all that lives took a sixth of the time. Then it is as the caller had it."""
-    global _RUNNING, _USUAL
-    with _COUNTING:
-        if not _RUNNING:
-            _USUAL = gc.get_threshold()
-            gc.set_threshold(*SELDOM)
-        _RUNNING += 1
-    try:
-        yield
-    finally:
-        with _COUNTING:
-            _RUNNING -= 1
-            if not _RUNNING:
-                gc.set_threshold(*_USUAL)
 
 
 def _handover() -> Handover:

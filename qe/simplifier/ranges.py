@@ -43,18 +43,14 @@ class Range:
             return False
         if self.hi is not None and (value > self.hi or (value == self.hi and self.hi_open)):
             return False
-        return value not in self.holes
+        return not self.holes or value not in self.holes
 
     def signs(self, value: Fraction) -> frozenset[int]:
         """The possible signs of (quantity - value)."""
-        signs = []
-        if self.lo is None or self.lo < value:
-            signs.append(-1)
-        if self.admits(value):
-            signs.append(0)
-        if self.hi is None or self.hi > value:
-            signs.append(1)
-        return frozenset(signs)
+        if self is EVERYTHING:
+            return ANY_SIGN
+        below, above = self.lo is None or self.lo < value, self.hi is None or self.hi > value
+        return frozenset((-1,) * below + (0,) * self.admits(value) + (1,) * above)
 
 
 def make(
@@ -74,7 +70,7 @@ def make(
     return Range(lo, hi, lo is None or lo_open, hi is None or hi_open, holes)
 
 
-EVERYTHING = Range()
+EVERYTHING, ANY_SIGN = Range(), frozenset((-1, 0, 1))
 EMPTY = Range(Fraction(1), Fraction(0), False, False)
 
 
