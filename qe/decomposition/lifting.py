@@ -170,17 +170,15 @@ class Lifter:
             cells_in = self._leaf_cells if last else self._bisected if self.plan.bisects(level) else self._cells
             for position, cell in cells_in(over, positions):
                 cells[position] = cell
-                if quantifier and cell.truth is stop:
-                    truth = stop
-                    if self.plan.partial:
-                        break
-                if self._ended:
+                if (quantifier and cell.truth is stop and self.plan.partial) or self._ended:
                     break
         except BudgetExceeded:
             if not self.anytime or quantifier:
                 raise
             self._ended = True
-        complete = tuple([Cell(stack.texts[p], None) if c is None else c for p, c in enumerate(cells)])
+        if quantifier and any(cell is not None and cell.truth is stop for cell in cells):
+            truth = stop
+        complete = tuple(Cell(stack.texts[p], None) if c is None else c for p, c in enumerate(cells))
         if stack.nullified and level in self.plan.thom_levels and _ambiguous(complete):
             self._collect_lacking(over.point, level, stack.nullified)
         return Cell(signs, truth, Stack(over.used, stack.sectors, stack.sections, complete))

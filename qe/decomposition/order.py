@@ -26,8 +26,7 @@ from qe.options import Budget, Options, Stage
 T = TypeVar("T")
 
 HEAVY = 20_000
-"""Projections of more effort than this are not tried: a resultant cannot be interrupted, and what is chosen must not
-depend on the clock (measured: up to a tenth of a second for all trials of a problem)."""
+"""Projections of more effort are not tried: a resultant cannot be interrupted. All trials take a tenth of a second."""
 
 TOO_HEAVY = 10 * HEAVY
 """The usual order is left for another one outright where its projection has steps of more effort than this."""

@@ -63,9 +63,8 @@ def decomposed(formula: Formula, options: Options, budget: Budget, log: RunLog) 
         return Outcome(matrix, {} if matrix.value else None)
     first = question.table(budget)
     values: Values | None = None
-    cells = first.table
     if formula.free:
-        answer, proof, levels, whole, cells = question.shortest(first, budget)
+        answer, proof, levels, whole = question.shortest(first, budget)
         answer = answer if options.root_atoms else presented(answer)
         if levels and options.certify:  # what was refined is no proof
             proof = question.table(budget, levels, whole_free=whole).table
@@ -79,7 +78,7 @@ def decomposed(formula: Formula, options: Options, budget: Budget, log: RunLog) 
     log.step("cells", formula, answer, evidence=kept(formula, make, options))
     # back into the ring of the formula it came from: it is joined with parts of that formula
     ring = formula.ring
-    return Outcome(answer if ring is None else convert(answer, ring), values, make=make, large=True, cells=cells)
+    return Outcome(answer if ring is None else convert(answer, ring), values, make=make, large=True)
 
 
 def kept(formula: Formula, make: Callable[[], Certificate] | None, options: Options) -> dict[str, object]:
@@ -182,24 +181,21 @@ class _Question:
         simple = simplify(convert(answer, Ring.of(self.free)), watch=budget.check)
         return simple, proof, levels
 
-    def shortest(self, first: Decomposed, budget: Budget) -> tuple[Formula, CellTable, frozenset[int], bool, CellTable]:
+    def shortest(self, first: Decomposed, budget: Budget) -> tuple[Formula, CellTable, frozenset[int], bool]:
         """As ``answer``; a small one is compared with that of the whole space of the free variables, for which formula
-        construction knows the signs of all factors everywhere. Last: whether that one is shorter, and the table with
-        most signs."""
+        construction knows the signs of all factors everywhere. Last: whether that one is shorter."""
         answer, proof, levels = self.answer(first, budget)
         plain = not self.options.root_atoms and Stage.PARTIAL not in self.options.without
         fewest = WHOLE_ATOMS_BOUND if any(self.prenex.quantifiers) else WHOLE_ATOMS
         if not plain or first.cells > WHOLE_FROM or length(answer)[0] < fewest or not is_small(answer):
-            return answer, proof, levels, False, proof
+            return answer, proof, levels, False
         part = budget.part(WHOLE_CELLS)
         try:
             whole = self.table(part, levels, whole_free=True)
             other, table, more = self.answer(whole, part, levels, whole_free=True)
         except BudgetExceeded:
-            return answer, proof, levels, False, proof
-        if length(other) < length(answer):
-            return other, table, more, True, table
-        return answer, proof, levels, False, table
+            return answer, proof, levels, False
+        return (other, table, more, True) if length(other) < length(answer) else (answer, proof, levels, False)
 
 
 def _figures(found: Decomposed, seconds: float) -> dict[str, object]:

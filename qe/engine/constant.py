@@ -36,14 +36,12 @@ ATOMS, LONG = 40, 1000
 """A formula of more atoms is not decided; one of more than ``LONG`` is not even evaluated."""
 
 
-@dataclass(slots=True)
+@dataclass(frozen=True, slots=True)
 class Start:
-    """The question that an answer is to, and where its steps begin in the log. ``whole``: an answer to it of which no
-    part can be left out."""
+    """The question that an answer is to, and where its steps begin in the log."""
 
     question: Formula
     mark: int
-    whole: Formula | None = None
 
 
 def constant(formula: Formula, context: Context, start: Start | None) -> Formula:

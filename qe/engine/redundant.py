@@ -12,21 +12,18 @@ import random
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from fractions import Fraction
-from functools import cache
+from functools import cached_property
 
 from qe.elimination.protocol import Context
 from qe.errors import Unable
 from qe.exact.number import Values
-from qe.exact.ring import Poly, Ring
-from qe.formula.build import conj, convert, disj, exists
+from qe.exact.ring import Poly
+from qe.formula.build import conj, disj, exists
 from qe.formula.features import length
 from qe.formula.normal import nnf
 from qe.formula.syntax import FALSE, TRUE, And, Atom, Constant, Formula, Or, Relation
 from qe.formula.traverse import atoms, bound_variables
 from qe.options import Stage
-from qe.proof.cells import CellTable
-from qe.proof.on_demand import OnDemand, Repeated
-from qe.proof.run_log import RunLog
 from qe.proof.step import Nested, Place, Step
 from qe.simplifier.simplify import simplify
 
@@ -49,8 +46,7 @@ MOST_ATOMS_ALONE, MOST_TERMS_ALONE = 40, 10_000
 """So many atoms of a larger answer are looked at as conditions on signs alone, with so many terms of conditions."""
 
 FEW_VARIABLES, FEW_TERMS = 4, 6
-"""With more variables all polynomials that are not linear have so few terms: a single substitution of a root into
-longer ones takes a tenth of a second (regions of balls in space, with six parameters)."""
+"""With more variables all polynomials that are not linear have so few terms: substitution is slow in longer ones."""
 
 FIRST, COARSE, FINE = 10, 40, 120
 """How many points are looked at first, beside those on the axes; how many for the parts that these leave, and then how
@@ -61,27 +57,22 @@ CLOSE = tuple(map(Fraction, ("0", "1/2", "-1/2", "1/3", "-2/3", "1", "-1", "5/4"
 """The coordinates of these points."""
 
 
-Where = Callable[[Formula], tuple[int, int]]
-"""Where a formula is known to hold, and where it is known to fail, as bits: at points or on cells."""
-
-
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True)
 class Part:
     """An argument of a conjunction or disjunction, its ``place``, and the conditions under which it matters: ``those``
-    that hold there, and others that fail. ``may``: that it matters is not excluded where it was looked for."""
+    that hold there, and others that fail."""
 
     place: Place
     formula: Formula
     of_conjunction: bool
     those: tuple[tuple[Formula, bool], ...]
-    may: bool
 
     @property
     def conditions(self) -> tuple[Formula, ...]:
         """The conditions as formulas that hold."""
         return tuple(f if holds else nnf(f, negate=True) for f, holds in self.those)
 
-    @property
+    @cached_property
     def sentence(self) -> Formula:
         """Whether there is a point where it matters."""
         body = conj(self.conditions)
@@ -105,10 +96,10 @@ def without_redundant_parts(
     points = Points(conj((known, formula)).free, context.budget.check)
     options = context.options.with_(without=context.options.without | {Stage.SAMPLES, Stage.POSITION})
     budget, kept, patience = context.budget.part(WORK), set[Formula](), PATIENCE
-    while patience and budget.used <= WORK:
-        part, sentence = next(_unsettled(formula, points, kept, known), (None, TRUE))
-        if part is None:
-            break
+    while (
+        patience and budget.used <= WORK and (part := next(_unsettled(formula, points, kept, known), None)) is not None
+    ):
+        sentence = part.sentence
         linear = all(a.poly.total_degree <= 1 for a in atoms(sentence))
         try:
             outcome = context.decide(sentence, options, budget.part(LINEAR_WORK if linear else QUESTION_WORK))
@@ -125,39 +116,13 @@ def without_redundant_parts(
     return _without_excluded_parts(formula, context, points)
 
 
-def without_parts_on_cells(formula: Formula, table: CellTable, context: Context) -> tuple[Formula, bool]:
-    """The formula without parts that matter on no cell of a decomposition of its space, as far as the signs of its
-    polynomials are known there; and whether they are known well enough to show that all others matter."""
-    from qe.decomposition.sign_table import Columns, free_cells
-    from qe.elimination.cad import decomposed
-
-    ring, columns, options = Ring.of(table.order), Columns(free_cells(table), table.factors), context.options
-    where: Where = cache(lambda part: columns.where(convert(part, ring)))
-    while True:
-        context.budget.check("shorten")
-        try:
-            parts = _by_size(formula, where)
-        except KeyError:  # a polynomial came up that is no product of the table's factors
-            return formula, False
-        part = next((part for part in parts if not part.may), None)
-        if part is None:
-            return formula, not parts
-        log = RunLog()
-        if options.certify:
-            decomposed(part.sentence, options, context.budget, log)
-        else:
-            again = OnDemand(Repeated(decomposed, part.sentence, options))
-            log.step("cells", part.sentence, FALSE, evidence={"proof": again})
-        formula = _dropped(formula, part, Nested(part.sentence, tuple(log.steps()), FALSE), context)
-
-
 def _without_excluded_parts(formula: Formula, context: Context, points: Points | None = None) -> Formula:
     """The formula without parts that the signs of its own polynomials exclude: these need not be small for that."""
     if sum(1 for _ in atoms(formula)) > MOST_ATOMS_ALONE:
         return formula
     points, kept, terms = points or Points(formula.free, context.budget.check), set[Formula](), MOST_TERMS_ALONE
     points.fill(FIRST)
-    parts = iter(_by_size(formula, points.where))
+    parts = iter(_by_size(formula, points))
     while (part := next(parts, None)) is not None:
         # What mattered once has fewer conditions, not more, after another part is dropped: it is not looked at again.
         if part.formula in kept:
@@ -168,7 +133,7 @@ def _without_excluded_parts(formula: Formula, context: Context, points: Points |
         if simplify(conj(part.conditions), watch=context.budget.check) == FALSE:
             nested = Nested(part.sentence, (Step("simplification", part.sentence, FALSE),), FALSE)
             formula = _dropped(formula, part, nested, context)
-            parts = iter(_by_size(formula, points.where))
+            parts = iter(_by_size(formula, points))
         else:
             kept.add(part.formula)
     return formula
@@ -207,48 +172,41 @@ def is_cheap_sentence(sentence: Formula) -> bool:
     return degree <= DEGREES.get(len(bound_variables(sentence)), MANY_DEGREE) and _is_suited(sentence)
 
 
-def _unsettled(
-    formula: Formula, points: Points, kept: set[Formula], known: Formula = TRUE
-) -> Iterator[tuple[Part, Formula]]:
-    """The parts worth a question of which no known point says that they matter, largest first, with the question."""
+def _unsettled(formula: Formula, points: Points, kept: set[Formula], known: Formula = TRUE) -> Iterator[Part]:
+    """The parts worth a question of which no known point says that they matter, largest first."""
     equations = {a for a in atoms(formula) if isinstance(a, Atom) and a.relation is Relation.EQ}
     for count in (FIRST, COARSE, COARSE + FINE):
         if not points.fill(count) and count < COARSE + FINE:
             continue
-        parts = _by_size(formula, points.where, known)
+        parts = _by_size(formula, points, known)
         parts = [p for p in parts if not (p.of_conjunction and p.formula in equations)]  # these are hardly redundant
         if not any(is_cheap_sentence(p.sentence) for p in parts):
             return
-    asked = ((part, part.sentence) for part in parts)
-    yield from (pair for pair in asked if pair[1] not in kept and is_cheap_sentence(pair[1]))
+    yield from (p for p in parts if p.sentence not in kept and is_cheap_sentence(p.sentence))
 
 
-def _by_size(formula: Formula, where: Where, known: Formula = TRUE) -> list[Part]:
+def _by_size(formula: Formula, points: Points, known: Formula = TRUE) -> list[Part]:
     """The parts of which no point tells that they matter, largest first."""
-    (holds, fails), (everywhere, _) = where(known), where(TRUE)
-    parts = _silent(formula, where, (), () if known == TRUE else ((known, True),), (holds, everywhere & ~fails))
+    parts = _silent(formula, points, (), () if known == TRUE else ((known, True),), points.holding(known))
     return sorted(parts, key=lambda part: length(part.formula), reverse=True)
 
 
 def _silent(
-    formula: Formula, where: Where, place: Place, above: tuple[tuple[Formula, bool], ...], there: tuple[int, int]
+    formula: Formula, points: Points, place: Place, above: tuple[tuple[Formula, bool], ...], there: int
 ) -> Iterator[Part]:
-    """The parts below a place that matters under conditions, and that no point tells; ``there``: the points where the
-    conditions are known to hold, and those where they may."""
+    """The parts below a place that matters under conditions, at the points ``there``, and that no point tells."""
     if not isinstance(formula, And | Or):
         return
     both = isinstance(formula, And)
-    known = [where(a) for a in formula.args]
-    masks = known if both else [(fails, holds) for holds, fails in known]
-    for k, (arg, (met, missed)) in enumerate(zip(formula.args, masks, strict=True)):
-        sure, may = there
-        for j, (others, not_others) in enumerate(masks):
-            if j != k:
-                sure, may = sure & others, may & ~not_others
+    masks = [points.holding(a) for a in formula.args]
+    for k, (arg, mask) in enumerate(zip(formula.args, masks, strict=True)):
+        here = there
+        for j, other in enumerate(masks):
+            here = here if j == k else here & other if both else here & ~other
         conditions = (*above, *((r, both) for j, r in enumerate(formula.args) if j != k))
-        if not sure & missed:
-            yield Part((*place, k), arg, both, (*conditions, (arg, not both)), bool(may & ~met))
-        yield from _silent(arg, where, (*place, k), conditions, (sure, may))
+        if not here & (~mask if both else mask):
+            yield Part((*place, k), arg, both, (*conditions, (arg, not both)))
+        yield from _silent(arg, points, (*place, k), conditions, here)
 
 
 @dataclass(slots=True)
@@ -306,11 +264,6 @@ class Points:
         self.known[formula] = len(self.listed), mask
         return mask
 
-    def where(self, formula: Formula) -> tuple[int, int]:
-        """Where the formula holds, and where it fails."""
-        holds = self.holding(formula)
-        return holds, (1 << len(self.listed)) - 1 & ~holds
-
     def signs_of(self, poly: Poly) -> tuple[int, int]:
         """Where a polynomial is negative, and where it is positive."""
         seen, below, above = self.signs.get(poly, (0, 0, 0))
@@ -318,9 +271,6 @@ class Points:
         names = poly.ring.names
         for k, point in enumerate(self.listed[seen:], start=seen):
             sign = poly.sign_at([point.get(name, 0) for name in names])
-            if sign < 0:
-                below |= 1 << k
-            elif sign > 0:
-                above |= 1 << k
+            below, above = below | (sign < 0) << k, above | (sign > 0) << k
         self.signs[poly] = len(self.listed), below, above
         return below, above

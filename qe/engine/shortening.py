@@ -9,13 +9,13 @@ from qe.elimination.protocol import Context
 from qe.engine.constant import Start, constant
 from qe.engine.factor_signs import has_products, signs_of_factors
 from qe.engine.implied import affine_hull_first, is_linear_conjunction
-from qe.engine.redundant import without_parts_on_cells, without_redundant_parts
+from qe.engine.redundant import without_redundant_parts
 from qe.engine.strategy import allows
 from qe.engine.untangle import has_equations, untangled, untangled_negation
 from qe.errors import Unable
 from qe.formula.features import SMALL_DEGREE, is_small, length
-from qe.formula.syntax import Atom, Formula, Relation
-from qe.formula.traverse import atoms, has_root_atoms
+from qe.formula.syntax import Formula
+from qe.formula.traverse import has_root_atoms
 from qe.options import Method, Stage
 from qe.proof.run_log import RunLog
 
@@ -28,11 +28,8 @@ LONG, LONG_WORK = 40, 12_000
 SHORTEN_DEGREE = {**SMALL_DEGREE, 3: 6}
 """A shorter form is looked for up to these total degrees: there may well be one, and giving up costs little work."""
 
-EQUATIONS = (Relation.EQ, Relation.NE)
-
 SHORTEN_TERMS = 120
-"""In three variables or more, an answer of more terms is left as it is: its projection alone is too much (of 1,000
-small eliminations all that became shorter had 98 terms at most)."""
+"""In three variables or more, an answer of more terms is left as it is: its projection alone is too much."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -53,33 +50,14 @@ class Rule:
 
 def read_off_cells(formula: Formula, context: Context, start: Start | None) -> Formula:
     """A shorter equivalent, read off a decomposition of its space; more work for a long answer at the end."""
-    if start is not None and has_own_factors(formula) and Stage.REDUNDANT not in context.options.without:
-        before, formula = formula, without_redundant_parts(formula, context)
-        if formula == before:
-            start.whole = formula
-            return formula
     from qe.elimination.cad import decomposed, kept
 
     work = LONG_WORK if start is not None and length(formula)[1] >= LONG else SHORTEN_WORK
     outcome = decomposed(formula, context.options, context.budget.part(work), RunLog())
-    if length(outcome.formula) < length(formula):
-        evidence = kept(formula, outcome.make, context.options)
-        formula = context.log.step("shorter", formula, outcome.formula, evidence=evidence)
-    if start is not None and outcome.cells is not None and Stage.REDUNDANT not in context.options.without:
-        formula, is_whole = without_parts_on_cells(formula, outcome.cells, context)
-        start.whole = formula if is_whole else None
-    return formula
-
-
-def has_own_factors(formula: Formula) -> bool:
-    """Whether all atoms are inequalities on irreducible polynomials, each on another one.
-
-    Where all of them matter, the truth changes at the zeros of each: no formula in single factors has fewer atoms.
-    """
-    listed = list(atoms(formula))
-    factors = [a.poly.factors()[1] for a in listed if isinstance(a, Atom) and a.relation not in EQUATIONS]
-    plain = {parts[0][0] for parts in factors if len(parts) == 1 and parts[0][1] == 1}
-    return len(plain) == len(listed)
+    if length(outcome.formula) >= length(formula):
+        return formula
+    evidence = kept(formula, outcome.make, context.options)
+    return context.log.step("shorter", formula, outcome.formula, evidence=evidence)
 
 
 def _has_few_cells(formula: Formula, context: Context) -> bool:
@@ -110,7 +88,6 @@ def shortened(
         return formula
     for rule in RULES:
         off = rule.stage in context.options.without or (rule.last and start is None)
-        off = off or (rule.apply is without_redundant_parts and start is not None and start.whole == formula)
         again = rule.apply is read_off_cells and known is not None and formula in known and length(formula)[1] < LONG
         if off or again or not rule.pays(formula, context):
             continue

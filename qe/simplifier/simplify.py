@@ -27,8 +27,7 @@ _ROUNDS = 60  # every round removes degree, an atom or a subformula; this only g
 
 
 _SIMPLE, _LEVELS = dict[object, Formula](), dict[object, Formula]()
-"""What became of formulas where nothing is assumed, and of one level of a formula under facts: a fixed point is found
-by coming back to it, and results come back to the simplifier (of 10,000 levels in 200 questions a third)."""
+"""What became of formulas where nothing is assumed, and of a level under facts: results come back to the simplifier."""
 
 _MOST = 2000  # results that are remembered, of each kind
 

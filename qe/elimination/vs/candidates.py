@@ -30,9 +30,8 @@ from qe.simplifier.facts import Facts, factor_list
 EQ, NE, LT, GT, GE = Relation.EQ, Relation.NE, Relation.LT, Relation.GT, Relation.GE
 _UPWARD = (GT, GE)
 
-# Estimates of the size of what a substitution produces, in units of a linear root with a constant denominator. Round
-# numbers: on the own corpus and 150 public problems, half or twice as much of any changes at most 14 eliminations, the
-# number of test points by at most an eighth, and the terms of all answers by less than one in a hundred.
+# Estimates of the size of what a substitution produces, in units of a linear root with a constant denominator: round
+# numbers, as half or twice as much of any changes little.
 _LINEAR = 2.0  # a linear root whose denominator has parameters: its sign matters for odd degrees
 _QUADRATIC = 6.0  # a root with a square root: the tables make up to five atoms of one
 _CUBIC = 20.0  # a root of a cubic: four to twenty-six atoms of one
