@@ -35,7 +35,7 @@ def radicals(c: Sequence[Poly], k: int, count: int, lead: int) -> Iterator[Radic
     elif degree == 3 and has_two_terms:
         yield Radical(f"cbrt({quotient})", (top,))
     elif is_even and has_two_terms:
-        root = f"sqrt({quotient})" if degree == 2 else f"{_bracketed(quotient, '-/ *')}^(1/{degree})"
+        root = f"sqrt({quotient})" if degree == 2 else f"{bracketed(quotient, '-/ *')}^(1/{degree})"
         yield from (Radical(sign + root, (top, (-c[0] * c[-1], NOT_NEGATIVE))) for sign in signs)
     elif is_even and degree == 4:
         square = quotient_text(*halved(c[::2]), lead if k in (1, count) else -lead)
@@ -64,8 +64,8 @@ def quotient_text(front: Poly, inside: Poly | None, bottom: Poly, sign: int) -> 
     if inside is not None:
         side, root = "-" if sign < 0 else "+", f"sqrt({_term(inside)})"
         top = f"{top} {side} {root}" if front else f"{side}{root}".removeprefix("+")
-    over = _bracketed(top, " ") if front else top
-    return top if below == "1" else f"{over}/{_bracketed(below, ' *')}"
+    over = bracketed(top, " ") if front else top
+    return top if below == "1" else f"{over}/{bracketed(below, ' *')}"
 
 
 def _term(poly: Poly) -> str:
@@ -77,6 +77,6 @@ def _term(poly: Poly) -> str:
     return " ".join(terms).removeprefix("+ ") if terms[0][0] == "+" else text
 
 
-def _bracketed(text: str, signs: str) -> str:
+def bracketed(text: str, signs: str) -> str:
     """The text in brackets where one of the signs is in it."""
     return f"({text})" if any(sign in text for sign in signs) else text

@@ -15,7 +15,7 @@ from qe.decomposition.decompose import decompose
 from qe.decomposition.fibres import fibre_of
 from qe.decomposition.interval import Coordinate, number_of
 from qe.decomposition.pieces import Piece, Range, RootFunction, merge
-from qe.decomposition.sampled_cells import child, root_place
+from qe.decomposition.sampled_cells import child, leaves, root_place
 from qe.engine.run import solve
 from qe.errors import InputError
 from qe.exact.number import Number, simplest
@@ -33,8 +33,8 @@ from qe.proof.answer import Answer, Guarantee
 from qe.proof.cells import Cell, CellTable
 from qe.proof.certificate import Certificate
 from qe.proof.multipliers import OptimumStatus
-from qe.regions.by_value import cases_by_value, effort
-from qe.regions.parameter_conditions import Terms, both
+from qe.regions.by_value import cases_by_value, effort, is_determined
+from qe.regions.parameter_conditions import Terms, both, only
 from qe.services import SymPyForm
 from qe.spelling import NUMBERS, quoted
 
@@ -278,28 +278,31 @@ def _with_points(pieces: Iterable[Piece], size: int) -> Iterator[tuple[Number, C
 
 
 def _stated(cases: Sequence[Case], tables: Mapping[End, CellTable], goal: Goal, budget: Budget) -> tuple[Stated, ...]:
-    """The cases as texts: each value and its points once, if that is possible and not longer."""
-    plain, size = tuple(case.stated for case in cases), len(goal.parameters)
-    said: list[tuple[Number, Stated]] = []
-    for end, table in tables.items():
-        for case in cases_by_value(table, size, budget) or ():
-            if case.base.depth > size or _numbers(goal.parameters):
-                return plain
-            where, first = (
-                (case.condition,) if case.condition else (),
-                case.base.point.number(0) if case.base.depth else Fraction(0),
-            )
-            for value, same in groupby(case.terms, key=lambda terms: terms[:1]):
-                points = [
-                    _all_said(terms[1:], goal.variables)
-                    for terms in same
-                    if goal.variables and len(table.order) > size + 1
-                ]
-                number = "".join(value).removeprefix(f"{quoted(goal.value)} = ") if value else None
-                said.append((first, Stated(number, end is End.ATTAINED, points, where)))
+    """The cases as texts: each value and its points once, if that is not longer."""
+    plain = tuple(case.stated for case in cases)
+    if _numbers(goal.parameters):
+        return plain
+    said = [pair for end, table in tables.items() for pair in _by_terms(table, end, goal, budget)]
     by_value = tuple(one for _, one in sorted(said, key=lambda pair: pair[0]))
-    texts = [[str(one) for one in some] for some in (by_value, plain)]
-    return by_value if effort(texts[0], goal.variables) <= effort(texts[1], goal.variables) else plain
+    first, second = (effort(map(str, some), goal.variables) for some in (by_value, plain))
+    return by_value if first <= second else plain
+
+
+def _by_terms(table: CellTable, end: End, goal: Goal, budget: Budget) -> Iterator[tuple[Number, Stated]]:
+    """The true cells as texts, each with a place; where points are no values of the parameters, by pieces."""
+    size, levels = len(goal.parameters), len(table.order) - len(goal.parameters)
+    kinds: dict[bool, set[tuple[int, ...]]] = {True: set(), False: set()}
+    for base in leaves(table, depth=size):
+        kinds[levels == 1 or is_determined(base.cell, levels)].add(base.path)
+    by_value, by_piece = (only(table, frozenset(kinds[kind])) for kind in (True, False))
+    for case in cases_by_value(by_value, size, budget) or ():
+        place = case.base.point.number(0) if case.base.depth else Fraction(0)
+        for value, same in groupby(case.terms, key=lambda terms: terms[:1]):
+            number = "".join(value).removeprefix(f"{quoted(goal.value)} = ") if value else None
+            points = [_all_said(terms[1:], goal.variables) for terms in same if len(table.order) > size + 1]
+            yield place, Stated(number, end is End.ATTAINED, points, (case.condition,) if case.condition else ())
+    for place, piece in _with_points(merge(by_piece, budget=budget), size) if kinds[False] else ():
+        yield place, piece.stated
 
 
 def _all_said(terms: Terms, variables: Sequence[str]) -> Terms:

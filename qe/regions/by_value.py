@@ -22,7 +22,7 @@ from operator import mul
 from typing import NamedTuple
 
 from qe.decomposition.pieces import RootFunction, Sections, range_text
-from qe.decomposition.radicals import NONZERO, radicals
+from qe.decomposition.radicals import NONZERO, NOT_NEGATIVE, bracketed, quotient_text, radicals
 from qe.decomposition.sampled_cells import Place, any_true, child, leaves
 from qe.elimination.rootsigns.forms import minors
 from qe.elimination.rootsigns.theory import minors as signs_of_minors
@@ -45,8 +45,19 @@ MOST_CELLS = 2_000
 MOST_CONJUGATES = 16
 """Coordinates of a point of at most so many conjugates are written as numbers."""
 
+MOST_WAYS = 6
+"""Polynomials that say the variable before that are tried for a value in the parameters alone."""
+
+MOST_TEXTS = 12
+"""Texts of a value that are combined with those of the variables after it."""
+
+MOST_TERMS = 40
+"""Terms of a polynomial in which others are put, times their degrees."""
+
 TERM = 15
 """So many characters more may a value have than a term in other variables that are solved for, or ``root``."""
+POSITIVE = frozenset((1,))
+_RELATIONS = {NONZERO: Relation.NE, NOT_NEGATIVE: Relation.GE, POSITIVE: Relation.GT}
 _SIDE = re.compile(r"= ((?:(?! and | or | if |, )[^\n])*)")
 
 
@@ -85,7 +96,7 @@ def cases_by_value(
         if len(bases) > MOST_CELLS:
             return None
         last = depth == len(table.order) - 1
-        determined = {i for i, base in enumerate(bases) if last or _is_determined(base.cell, len(table.order) - depth)}
+        determined = {i for i, base in enumerate(bases) if last or is_determined(base.cell, len(table.order) - depth)}
         outside = cells_outside(table, bases, given)
         cases += _cases(table, depth, bases, determined, everything, outside, depth > parameters, budget)
         rest = frozenset(base.path for i, base in enumerate(bases) if i not in determined)
@@ -138,12 +149,12 @@ def _is_all(cell: Cell) -> bool:
     return cell.truth is True if cell.stack is None else all(map(_is_all, cell.stack.cells))
 
 
-def _is_determined(cell: Cell, levels: int) -> bool:
+def is_determined(cell: Cell, levels: int) -> bool:
     """Whether over a cell each variable before the last has finitely many values that are solutions, or all are."""
     if cell.stack is None or levels == 1 or _is_all(cell):
         return True
     inner = cell.stack.cells
-    return not any(map(any_true, inner[::2])) and all(_is_determined(below, levels - 1) for below in inner)
+    return not any(map(any_true, inner[::2])) and all(is_determined(below, levels - 1) for below in inner)
 
 
 def _fixed(table: CellTable, base: Place) -> dict[int, Fraction]:
@@ -166,19 +177,23 @@ class _Said:
     parameters: int
     sections: Sections
     needs: dict[str, list[tuple[Poly, frozenset[int]]]] = field(default_factory=lambda: defaultdict(list))
+    fixed: dict[tuple[int, ...], dict[int, Fraction]] = field(default_factory=dict)
 
     def over(
-        self, place: Place, fixed: Mapping[int, Fraction], quotients: Sequence[Poly] = ()
+        self, place: Place, fixed: Mapping[int, Fraction], before: Sequence[tuple[Poly, ...]] = ((),)
     ) -> Iterator[tuple[Place, set[Terms]]]:
         """The solutions over a cell, with the terms that say them; ``fixed``: the variables with a rational value;
-        ``quotients``: polynomials of degree 1 in the variables that they say, the last one first."""
+        ``before``: ways in which polynomials say the variables before, the last one first."""
         stack = place.cell.stack
         if stack is None or _is_all(place.cell):
             return
         ends = self.sections.of(place)
         counts = Counter(end.poly for candidates in ends for end in candidates)
         name = quoted(self.table.order[place.depth])
-        values = [{t for end in c for t in self.texts(end, counts[end.poly], place, fixed, quotients)} for c in ends]
+        values = [
+            {t for end in candidates for t in self.texts(end, counts[end.poly], place, fixed, before, 2 * k + 1)}
+            for k, candidates in enumerate(ends)
+        ]
         for start, stop in _runs(stack.cells):
             first = child(self.table, place, start)
             equal = values[start // 2] | self.numbers(first) if start % 2 and start == stop else set()
@@ -195,10 +210,14 @@ class _Said:
             number = first.point.number(place.depth)
             is_fixed = isinstance(number, Fraction) and str(number) in equal
             inner = {**fixed, place.depth: number} if isinstance(number, Fraction) and is_fixed else fixed
-            equations = {f"{name} = {value}": self.needs[value] for value in equal}
+            shortest = sorted(
+                equal, key=lambda value: (effort([f"= {value}"], self.table.order[self.parameters :]), value)
+            )
+            equations = {f"{name} = {value}": self.needs[value] for value in shortest[:MOST_TEXTS]}
             self.needs.update(equations)
-            here = [end.poly for end in ends[start // 2] if self.is_quotient(end.poly, place)]
-            for end, terms in self.over(first, inner, (*here[:1], *quotients)):
+            polys = sorted({end.poly for end in ends[start // 2]}, key=self.directness)
+            ways = [(poly, *before[0]) for poly in polys[:MOST_WAYS]]
+            for end, terms in self.over(first, inner, ways):
                 yield end, {(text, *rest) for text in equations for rest in terms}
 
     def numbers(self, place: Place) -> set[str]:
@@ -210,27 +229,43 @@ class _Said:
         text = radical_text(place.point.number(place.depth - 1))
         return set() if "root(" in text else {text}
 
-    def is_quotient(self, poly: Poly, place: Place) -> bool:
-        """Whether a factor has degree 1 in the next variable, and its coefficient a sign that is known on the cell."""
-        return poly.degree(place.depth) == 1 and bool(self.sign(poly.coefficients(place.depth)[1], place))
+    def directness(self, poly: Poly) -> tuple[int, int, str]:
+        """How many variables that are solved for are in a polynomial, its degree, and its text."""
+        return sum(i >= self.parameters for i in poly.variables), poly.degree(poly.level), format_poly(poly)
 
-    def explicit(self, poly: Poly, place: Place, quotients: Sequence[Poly]) -> Poly | None:
-        """A polynomial of degree 1 with the root that a factor has, without the variables that others say."""
-        rest = reduce(lambda form, one: form.resultant(one, one.level), quotients, poly)
-        parts = () if not rest or rest == poly else rest.factors()[1]
-        having = [factor for factor, _ in parts if factor.degree(place.depth)]
-        others = [factor for factor, _ in parts if not factor.degree(place.depth)]
+    def explicit(self, poly: Poly, place: Place, before: tuple[Poly, ...]) -> Poly | None:
+        """The only factor that can have the root that a factor has, without the variables that those before say."""
+        parts = poly.ring.remembered(("explicit", poly, before), partial(_without, poly, before))
+        having = [factor for factor in parts if factor.degree(place.depth)]
+        others = [factor for factor in parts if not factor.degree(place.depth)]
         return having[0] if len(having) == 1 and all(self.sign(one, place) for one in others) else None
 
+    def by_parameters(self, poly: Poly, place: Place, position: int) -> Iterator[str]:
+        """The root of a polynomial in the parameters, of degree 1 or without a linear term, that the section at a
+        position of the stack over a cell is, as far as signs tell which one that is."""
+        c = poly.coefficients(place.depth)
+        if len(c) == 2 and self.sign(c[1], place):
+            yield from self.valued(RootFunction(poly, 1), 1, place, {})
+        elif len(c) == 3 and not c[1] and (sign := self.sign(c[0], place)) is not None and self.sign(c[2], place):
+            is_positive = child(self.table, place, position).point.sign(poly.ring.gen(place.depth)) > 0
+            yield from self.valued(RootFunction(poly, 1 + is_positive), 2 if sign else 1, place, {})
+
     def texts(
-        self, end: RootFunction, count: int, place: Place, fixed: Mapping[int, Fraction], quotients: Sequence[Poly] = ()
+        self,
+        end: RootFunction,
+        count: int,
+        place: Place,
+        fixed: Mapping[int, Fraction],
+        before: Sequence[tuple[Poly, ...]],
+        at: int,
     ) -> Iterator[str]:
-        """The terms that a section is as the ``k``-th of ``count`` different roots of a factor."""
+        """The terms that a section, ``at`` a position of the stack, is as one of ``count`` roots of a factor."""
         if end.value is not None:
             yield radical_text(end.value)
             return
-        if (same := self.explicit(end.poly, place, quotients)) is not None and self.is_quotient(same, place):
-            yield from self.valued(RootFunction(same, 1), 1, place, {})
+        for way in before:
+            if (same := self.explicit(end.poly, place, way)) is not None:
+                yield from self.by_parameters(same, place, at)
         seen = [(i, value) for i, value in fixed.items() if i in end.poly.variables]
         inner = {i: value for i, value in seen if i >= self.parameters}
         outer = len(seen) - len(inner)  # with these values, too, it may be shorter
@@ -258,11 +293,25 @@ class _Said:
             return
         signs = [self.sign(c, place) for c in known.coefficients(level)]
         degree = max((k for k, sign in enumerate(signs) if sign != 0), default=0)
+        if degree == 2 and signs[2] == 1:
+            yield from self.over_root(form.coefficients(level), end.k, count, place)
         if lead := signs[degree]:
             make = lambda: [*radicals(form.coefficients(level)[: degree + 1], end.k, count, lead)]  # noqa: E731
             for radical in form.ring.remembered(("radicals", form, level, degree, end.k, count, lead), make):
                 self.needs.setdefault(radical.text, [*radical.needs])
                 yield radical.text
+
+    def over_root(self, c: Sequence[Poly], k: int, count: int, place: Place) -> Iterator[str]:
+        """The ``k``-th of ``count`` roots of a*x^2 - b^2 = 0 as ±b/sqrt(a), where b has a known sign."""
+        b = None if c[1] or c[2].is_constant else (-c[0]).square_root()
+        sign = None if b is None else self.sign(b, place)
+        if b is None or sign is None:
+            return
+        for side in {sign * (2 * k - 3)} if count == 2 else (-1, 1):
+            top = quotient_text(b * side, None, c[2].ring.constant(1), 0)
+            text = f"{bracketed(top, ' ')}/sqrt({format_poly(c[2])})"
+            self.needs.setdefault(text, [(c[2], POSITIVE)])
+            yield text
 
     def counted(self, bases: Sequence[Place]) -> Columned:
         """Minors of Hermite's forms of factors whose roots are solutions, with those of their signs on cells that the
@@ -313,24 +362,42 @@ class _Said:
                 return None
             if i in cells and any(sign is None for sign, _ in known):
                 return None
-        return conj(atom(poly, Relation.NE if signs == NONZERO else Relation.GE) for poly, signs in inside)
+        return conj(atom(poly, _RELATIONS[signs]) for poly, signs in inside)
 
     def sign(self, poly: Poly, place: Place) -> int | None:
-        """The sign of a product of factors on the cell; None where it is not among those that the table says."""
+        """The sign of a polynomial on the cell; None where those of its factors, also at the values that variables have
+        there, are not among those that the table says."""
         unit, factors = poly.factors() if poly else (0, ())
         result = (unit > 0) - (unit < 0)
         for factor, exponent in factors:
-            level = factor.level
-            if level >= place.depth or factor not in self.table.factors[level]:
+            sign = self.listed(factor, place)
+            if sign is None:
+                values = self.fixed.setdefault(place.path, _fixed(self.table, place))
+                inner = factor.at_rationals(values)
+                sign = None if inner == factor else self.sign(inner, place)
+            if sign is None:
                 return None
-            j = self.table.factors[level].index(factor)
-            if j not in place.used[level]:
-                return None
-            character = place.signs[level][place.used[level].index(j)]
-            if character == "?":
-                return None
-            result *= SIGN_OF[character] ** exponent
+            result *= sign**exponent
         return result
+
+    def listed(self, factor: Poly, place: Place) -> int | None:
+        """The sign of a factor that the table says."""
+        level = factor.level
+        if level >= place.depth or factor not in self.table.factors[level]:
+            return None
+        j = self.table.factors[level].index(factor)
+        if j not in place.used[level]:
+            return None
+        character = place.signs[level][place.used[level].index(j)]
+        return None if character == "?" else SIGN_OF[character]
+
+
+def _without(poly: Poly, before: Sequence[Poly]) -> list[Poly]:
+    """The factors of the resultant with polynomials that say variables; none where it is zero or that takes long."""
+    if prod(one.degree(one.level) for one in before) * poly.term_count() > MOST_TERMS:
+        return []
+    rest = reduce(lambda form, one: form.resultant(one, one.level), before, poly)
+    return [] if rest == poly else [factor for factor, _ in rest.factors()[1]] if rest else []
 
 
 def _degree(value: object) -> int:
@@ -364,11 +431,10 @@ def _cover(found: Mapping[tuple[int, tuple[int, ...]], set[Terms]], names: Seque
     for solution, all_terms in found.items():
         for terms in all_terms:
             where.setdefault(terms, set()).add(solution)
+    efforts = {terms: effort(terms, names) for terms in where}
     uncovered, chosen = set(found), []
     while uncovered:
-        best = min(
-            where, key=lambda terms: (-len(where[terms] & uncovered), effort(terms, names), min(where[terms]), terms)
-        )
+        best = min(where, key=lambda terms: (-len(where[terms] & uncovered), efforts[terms], min(where[terms]), terms))
         chosen.append(best)
         uncovered -= where[best]
     return sorted(

@@ -33,7 +33,7 @@ from tests.tables import each
         "a*x + b*y = c",
         "a, b, c",
         [
-            "c^2/(a^2 + b^2) at x = a*c/(a^2 + b^2), y = (c - a*x)/b if b /= 0",
+            "c^2/(a^2 + b^2) at x = a*c/(a^2 + b^2), y = b*c/(a^2 + b^2) if b /= 0",
             "0 at x = 0, y = 0 if c = 0",
             "c^2/a^2 at x = c/a, y = 0 if a /= 0 and b = 0",
         ],
@@ -73,6 +73,9 @@ QUESTIONS = (
     ("x^2 + a*x*y + y^2", "x + y = b", "a, b"),
     ("(x - a)^2 + (y - b)^2", "x*y = 0", "a, b"),
     ("a*x", "b*x = 0", "a, b"),
+    # where points are on curves they are said by pieces; of several such places of a only the first one was said
+    ("x*y", "x*y = a^2 - 3", "a"),
+    ("b^2 - a*x", "2*x*y <= 3*a", "a, b"),
 )
 
 

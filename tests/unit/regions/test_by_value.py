@@ -60,6 +60,13 @@ EXPECTED = (
     ("x^2 = a^2", "x", "x = -a or x = a"),
     ("x^4 - 5*x^2 + 4 = 0", None, "x = -2 or x = -1 or x = 1 or x = 2"),
     ("x^4 - 4*x^2 + 2 < 0 and x > 0", None, "sqrt(2 - sqrt(2)) < x < sqrt(2 + sqrt(2))"),
+    # y = -a*x/b, and y = -1 or y = 1 where b = 0
+    (
+        "a*x + b*y = 0 and x^2 + y^2 = 1 and a > 0",
+        "x, y",
+        "a > 0 and (x = -b/sqrt(a^2 + b^2) and y = a/sqrt(a^2 + b^2) or "
+        "x = b/sqrt(a^2 + b^2) and y = -a/sqrt(a^2 + b^2))",
+    ),
     # r <= -|b| or r >= |b| in four parts
     (
         "(x - a)^2 + (y - b)^2 = r^2 and y = 0",
