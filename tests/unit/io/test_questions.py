@@ -191,3 +191,27 @@ def test_without_variables_the_usual_unknowns_are_meant() -> None:
 def test_linear_systems_by_their_determinant(system: str, cases: int) -> None:
     solutions = qe.solve(system, ["x", "y"], check=True)
     assert len(str(solutions).split(" or\n")) == cases and solutions.guarantee is qe.Guarantee.CHECKED
+
+
+@given(
+    ENDS, ENDS, ENDS, ENDS, st.sampled_from((" at two points", " at only one point", " at no points", "", "tangent"))
+)
+def test_lines_and_parabolas(a: int, b: int, c: int, m: int, how: str) -> None:
+    """By the discriminant; a line has one point with another line, or is that line, and then they touch."""
+    curve = f"the curve y = ({a})*x^2 + ({b})*x + ({c})"
+    line = f"the line y = ({m})*x + 1"
+    typed = f"{line} is tangent to {curve}" if how == "tangent" else f"{line} meets {curve}{how}"
+    linear, constant = b - m, c - 1
+    disc = linear**2 - 4 * a * constant
+    if a:
+        points: float = 0 if disc < 0 else 1 if disc == 0 else 2
+    else:
+        points = 1 if linear else 0 if constant else float("inf")
+    touching = (points == 1 and a != 0) or points == float("inf")
+    wanted = {
+        " at two points": points == 2,
+        " at only one point": points == 1,
+        " at no points": points == 0,
+        "": points > 0,
+    }
+    assert bool(qe.decide(typed)) == wanted.get(how, touching)
