@@ -105,10 +105,19 @@ def tokens(text: str) -> Iterator[Token]:
 
 def as_text(source: str) -> str:
     """What stands between dollars in a sentence as the text syntax has it; what is not known stays as it is."""
+    text, before = "", ""
     try:
-        return re.sub(r" ?([\^(),*/]) ?", r"\1", " ".join(token.text for token in tokens(source)))
+        listed = [*tokens(source)]
     except SyntaxFailure:
         return source
+    is_term = not any(token.kind == "QUANTIFIER" for token in listed)
+    for kind, written, _ in listed:
+        product = is_term and before in ("NAME", "NUMBER", "CLOSE") and kind in ("NAME", "OPEN", "FUNCTION")
+        is_word = kind in ("RELATION", "DOT") or (kind != "FUNCTION" and written[1:].isalpha())
+        text += "*" if product else " " if text[-1:].isalnum() and written[:1].isalnum() else ""
+        text += f" {written} " if is_word else written
+        before = kind
+    return re.sub(r" +", " ", text)
 
 
 class _Source:
