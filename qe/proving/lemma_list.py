@@ -7,18 +7,23 @@ from dataclasses import dataclass, field
 from itertools import pairwise
 from operator import itemgetter
 
+from qe.errors import CertificateRejected
 from qe.exact.algebraic import real_roots
 from qe.exact.nearby import rational_between
 from qe.exact.ring import Poly, Ring
 from qe.exact.sparse_text import digits
-from qe.kernel.boolean import Goal
+from qe.formula.syntax import TRUE
+from qe.kernel.boolean import ByLemmas, Goal
 from qe.kernel.signs import NEGATIVE, POSITIVE, ZERO, Identity, Lemma, Line, read_lemma, read_polynomials, sign_bit
-from qe.kernel.step import Limits
+from qe.kernel.step import Claim, Limits
 from qe.proof.entry import Entry, Json, poly_to_text
 from qe.proving.refutation import NODES, Refutation
 
 Term = tuple[int, tuple[tuple[Poly, int], ...]]
 """A coefficient, and polynomials with exponents."""
+
+FEW_ENTRIES = 16
+"""So short a theory is looked through for what it does without."""
 
 EMPTY: Json = {"polynomials": [], "lemmas": [], "cases": []}
 
@@ -101,6 +106,38 @@ def with_cases(evidence: Json, goals: Sequence[Goal], ring: Ring, limits: Limits
         if not search.go_on(NODES, NODES):
             return None
     return {**evidence, "cases": _cases(searches, polys)}
+
+
+def without_needless(evidence: Json, goals: Sequence[Goal], ring: Ring, limits: Limits) -> Json:
+    """A short theory without the lemmas and the cases that it does without, each left out once."""
+    assert isinstance(evidence, dict)
+    polys, lemmas, cases = (evidence[name] for name in ("polynomials", "lemmas", "cases"))
+    assert isinstance(polys, list) and isinstance(lemmas, list) and isinstance(cases, list)
+    if not 1 < 2 * len(lemmas) + len(cases) - bool(lemmas) <= FEW_ENTRIES:
+        return evidence
+    for k in reversed(range(len(lemmas))):
+        rest = [*lemmas[:k], *lemmas[k + 1 :]]
+        numbers = {i: n for n, i in enumerate(dict.fromkeys(i for lemma in rest for i in _mentioned(lemma)))}
+        listed: Json = [polys[i] for i in numbers]
+        fewer: Json = {"polynomials": listed, "lemmas": [_renumbered(lemma, numbers) for lemma in rest]}
+        shorter = with_cases(fewer, goals, ring, limits)
+        if isinstance(shorter, dict) and len(shorter["cases"]) <= len(cases):  # type: ignore[arg-type]
+            return without_needless(shorter, goals, ring, limits)
+    for k in reversed(range(len(cases))):
+        fewer = {**evidence, "cases": [*cases[:k], *cases[k + 1 :]]}
+        if _refutes(fewer, goals, ring, limits):
+            return without_needless(fewer, goals, ring, limits)
+    return evidence
+
+
+def _refutes(evidence: Json, goals: Sequence[Goal], ring: Ring, limits: Limits) -> bool:
+    """Whether the kernel takes it for a refutation of the goals."""
+    claim = Claim("signs", TRUE, TRUE, ring, Entry({"theory": evidence}, "evidence"), "step")
+    try:
+        ByLemmas(lambda *_: goals)(claim, (), limits)
+    except CertificateRejected:
+        return False
+    return True
 
 
 def _cases(searches: Sequence[Refutation], polys: Sequence[Poly]) -> list[Json]:

@@ -27,7 +27,7 @@ from qe.proof.entry import Json, poly_to_text
 from qe.proving.cofactors import cofactors
 from qe.proving.expansions import as_squares, ranges, shifted
 from qe.proving.goals import is_hopeless, polynomials_outside
-from qe.proving.lemma_list import Lemmas, Term
+from qe.proving.lemma_list import Lemmas, Term, without_needless
 from qe.proving.refutation import NODES, Refutation
 from qe.rules.cancelling import difference
 from qe.simplifier.facts import factor_list, key_of
@@ -80,7 +80,8 @@ def refuting(goals: Sequence[Goal], ring: Ring, limits: Limits, ideal: bool = Fa
             break
     if not all(refutation.go_on(NODES, NODES) for refutation in searches):
         return None
-    return theory.only({k for refutation in searches for k in refutation.lemmas}, searches)
+    evidence = theory.only({k for refutation in searches for k in refutation.lemmas}, searches)
+    return without_needless(evidence, goals, ring, limits)
 
 
 def _bounds(theory: Lemmas, goals: Sequence[Goal], limits: Limits) -> None:

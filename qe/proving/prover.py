@@ -21,6 +21,7 @@ from qe.formula.traverse import children, clashes, conjuncts, polynomials, subfo
 from qe.kernel.block import block_goals, existential
 from qe.kernel.boolean import ByLemmas
 from qe.kernel.derivation import check_derivation, limits_of, replaced
+from qe.kernel.renaming import is_same
 from qe.kernel.step import Check, Claim, Context, Limits, check_names
 from qe.kernel.verdict import CRASHES
 from qe.options import Budget, Options
@@ -90,7 +91,8 @@ class Prover:
     """The steps written so far, and the rules of those that no checker accepts.
 
     ``tables``: whether decompositions may help; ``known``: what holds wherever the whole formula matters; ``accepted``:
-    what need not be checked again.
+    what need not be checked again; ``only_ordering``: the numbers of steps after which a part is the same in another
+    order, the last one first.
     """
 
     ring: Ring
@@ -101,6 +103,7 @@ class Prover:
     accepted: Accepted = field(default_factory=set)
     steps: list[Json] = field(default_factory=list)
     unchecked: list[str] = field(default_factory=list)
+    only_ordering: list[int] = field(default_factory=list)
     limits: Limits = field(init=False)
 
     def __post_init__(self) -> None:
@@ -171,6 +174,8 @@ class Prover:
             self.unchecked.append(step.rule)
         else:
             rule, evidence = found
+            if is_same(step.before, step.after):
+                self.only_ordering.insert(0, len(self.steps))
             self.steps.append(written(rule, place, step.before, step.after, context, evidence))
         return changed
 
@@ -330,7 +335,12 @@ class Prover:
             current = inner.taken(Step(part.rule, before, after, context, part.evidence, places), current)
         if current != step.after:
             inner.joined(current, step.after)
-        return None if inner.unchecked else self._named(step.rule, step, (), {"steps": inner.steps})
+        shown = None if inner.unchecked else self._named(step.rule, step, (), {"steps": inner.steps})
+        for k in inner.only_ordering if shown else ():
+            rest: list[Json] = [*inner.steps[:k], *inner.steps[k + 1 :]]
+            if fewer := self._named(step.rule, step, (), {"steps": rest}):
+                shown, inner.steps = fewer, rest
+        return shown
 
     def _searched(self, step: Step, evidence: dict[str, Json]) -> Shown | None:
         """The evidence for a refutation by a Boolean search, with the clauses that lead to a contradiction."""

@@ -19,7 +19,7 @@ from qe.kernel.step import Claim
 from qe.options import Budget
 from qe.proof.entry import Entry, Json
 from qe.proving.goals import is_hopeless, polynomials_outside
-from qe.proving.lemma_list import Lemmas
+from qe.proving.lemma_list import Lemmas, identities, without_needless
 from qe.proving.lemmas import refuting
 from qe.proving.refutation import NODES, Refutation
 from qe.simplifier.facts import factor_list
@@ -194,3 +194,14 @@ def test_a_line_is_meant_as_the_kernel_reads_it(rows: list[list[int]]) -> None:
         meant, checked = found.facts[0], read_lemma(Entry(found.lemmas[0], "lemma"), tuple(found.numbers), SIGNS_RING)
         assert isinstance(meant, Line) and isinstance(checked, Line)
         assert (meant.polynomials, meant.cells) == (checked.polynomials, checked.cells)
+
+
+def test_no_lemma_or_case_is_there_for_nothing() -> None:
+    """Each is left out once: x > 1 and x < 0 needs one difference and no case."""
+    x, y = RING.var("x"), RING.var("y")
+    square = [(1, ((x * x + y * y, 1),)), (-1, ((x, 2),)), (-1, ((y, 2),))]
+    needed = identities([[(1, ((x, 1),)), (-1, ((x - 1, 1),)), (-1, ())]], RING)
+    long = identities([square, [(1, ((x, 1),)), (-1, ((x - 1, 1),)), (-1, ())]], RING, [[(y, 2)], [(x, 1)]])
+    assert isinstance(long, dict)
+    assert len(long["cases"]) == 2  # type: ignore[arg-type]
+    assert without_needless(long, [tuple(goal("x > 1", "x < 0"))], RING, LIMITS) == needed
