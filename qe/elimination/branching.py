@@ -28,7 +28,6 @@ from qe.formula.block import Block
 from qe.formula.build import exists
 from qe.formula.syntax import FALSE, TRUE, Atom, Formula, Or, Relation
 from qe.formula.traverse import conjuncts
-from qe.kernel.signs import ANY, NEGATIVE, POSITIVE, ZERO
 from qe.options import Budget, Options
 from qe.proof.on_demand import Evidence, OnDemand
 from qe.rules.lift import holds_at
@@ -42,8 +41,6 @@ NODE, ENTRIES, DEEPEST = 5, 200, 60
 most."""
 
 Powers = tuple[tuple[Poly, int], ...]
-Literal = tuple[Poly, int]
-"""A primitive polynomial, and the signs that it may have."""
 Identity = tuple[tuple[Fraction, Powers], ...]
 Ends = tuple[Number, Number]
 
@@ -154,7 +151,7 @@ class _Proof:
     of all space."""
 
     lemmas: list[Identity] = field(default_factory=list)
-    clauses: list[frozenset[Literal]] = field(default_factory=list)
+    clauses: list[frozenset[Atom]] = field(default_factory=list)
     roots: dict[Poly, list[Identity]] = field(default_factory=dict)
 
     def evidence(self, budget: Budget) -> Evidence:
@@ -168,7 +165,7 @@ class _Proof:
         for identity in (*chain.from_iterable(roots.values()), *self.lemmas):
             whole = lcm(*(w.denominator for w, _ in identity))
             identities.append([(int(w * whole), powers) for w, powers in identity])
-        clauses = [[(q, ANY & ~signs) for q, signs in clause] for clause in self.clauses if clause]
+        clauses = [[Atom(a.poly, a.relation.negated) for a in clause] for clause in self.clauses if clause]
         return {"identities": identities, "clauses": clauses}
 
 
@@ -227,8 +224,8 @@ class _Tree:
                     self.relaxation.say(tuple(powers.items()), Relation.GE if sign > 0 else Relation.LE)
 
     def _search(
-        self, ends: dict[Poly, Ends], path: dict[Literal, None], depth: int
-    ) -> dict[str, Fraction] | frozenset[Literal]:
+        self, ends: dict[Poly, Ends], path: dict[Atom, None], depth: int
+    ) -> dict[str, Fraction] | frozenset[Atom]:
         """A point of a piece, or the literals on the path by which it is empty."""
         self.budget.spend(NODE)
         refuted = self.relaxation.refutation(self.budget)
@@ -240,14 +237,13 @@ class _Tree:
         if depth > DEEPEST:
             raise Unable("the pieces do not get small enough")
         pieces = self._pieces(ends, point, values)
-        needed: frozenset[Literal] = frozenset()
+        needed: frozenset[Atom] = frozenset()
         lemmas, clauses = self.proof.lemmas, self.proof.clauses
         written = len(lemmas), len(clauses)
         for literal, changed, products in pieces:
             start = len(lemmas), len(clauses)
             mark, forms = self.relaxation.mark(), len(self.relaxation.forms)
-            poly, signs = literal
-            self.relaxation.say(((poly, 1),), _RELATIONS[signs])
+            self.relaxation.say(((literal.poly, 1),), literal.relation)
             self._cut(changed, products)
             found = self._search(changed, {**path, literal: None}, depth + 1)
             self.relaxation.undo(mark, forms)
@@ -260,10 +256,10 @@ class _Tree:
         clauses.append(needed)
         return needed
 
-    def _leaf(self, refuted: Identity, path: dict[Literal, None]) -> frozenset[Literal]:
+    def _leaf(self, refuted: Identity, path: dict[Atom, None]) -> frozenset[Atom]:
         used = {poly for _, powers in refuted for poly, e in powers}
         self.proof.lemmas.append(refuted)
-        return frozenset(literal for literal in path if literal[0] in used)
+        return frozenset(literal for literal in path if literal.poly in used)
 
     def _point(self) -> tuple[dict[str, Fraction], dict[Monomial, Fraction]]:
         """What the relaxation takes for a point: variables, and all monomials."""
@@ -273,7 +269,7 @@ class _Tree:
 
     def _pieces(
         self, ends: dict[Poly, Ends], point: dict[str, Fraction], values: dict[Monomial, Fraction]
-    ) -> Iterator[tuple[Literal, dict[Poly, Ends], list[tuple[Poly, ...]]]]:
+    ) -> Iterator[tuple[Atom, dict[Poly, Ends], list[tuple[Poly, ...]]]]:
         """The parts of a disjunction that fails at the point, or both sides of a cut."""
         at = [*point.values()]
 
@@ -289,7 +285,7 @@ class _Tree:
         for case in self.cases:
             if not any(map(holds, case)):
                 for a in case:
-                    yield (a.poly, _signs(a.relation)), ends, []
+                    yield a, ends, []
                 return
         product = max(self.products, key=gap, default=())
         if not product or gap(product) < 1e-9:
@@ -301,14 +297,7 @@ class _Tree:
         products = [t for t in self.products if f in t]
         for side in (-1, 1):
             changed = {**ends, f: (low, middle) if side < 0 else (middle, high)}
-            yield (poly, ZERO | (POSITIVE if side * sign > 0 else NEGATIVE)), changed, products
-
-
-_RELATIONS = {sum({-1: NEGATIVE, 0: ZERO, 1: POSITIVE}[s] for s in r.signs): r for r in Relation}
-
-
-def _signs(relation: Relation) -> int:
-    return next(signs for signs, r in _RELATIONS.items() if r is relation)
+            yield Atom(poly, Relation.GE if side * sign > 0 else Relation.LE), changed, products
 
 
 def _alternatives(part: Formula) -> tuple[Atom, ...]:

@@ -12,7 +12,7 @@ from qe.exact.algebraic import real_roots
 from qe.exact.nearby import rational_between
 from qe.exact.ring import Poly, Ring
 from qe.exact.sparse_text import digits
-from qe.formula.syntax import TRUE
+from qe.formula.syntax import TRUE, Atom
 from qe.kernel.boolean import ByLemmas, Goal
 from qe.kernel.signs import NEGATIVE, POSITIVE, ZERO, Identity, Lemma, Line, read_lemma, read_polynomials, sign_bit
 from qe.kernel.step import Claim, Limits
@@ -146,19 +146,17 @@ def _cases(searches: Sequence[Refutation], polys: Sequence[Poly]) -> list[Json]:
     return [[k, clause] for k, search in enumerate(searches) for clause in search.cases(numbers)]
 
 
-def identities(
-    listed: Iterable[Sequence[Term]], ring: Ring, clauses: Iterable[Sequence[tuple[Poly, int]]] = ()
-) -> Json:
-    """Sums that are 0, as lemmas over the ring, and clauses of signs of their polynomials for the first goal."""
+def identities(listed: Iterable[Sequence[Term]], ring: Ring, clauses: Iterable[Sequence[Atom]] = ()) -> Json:
+    """Sums that are 0, as lemmas over the ring, and clauses about their polynomials for the first goal."""
     lemmas = Lemmas(ring)
     for terms in listed:
         lemmas.identity([(c, tuple((p.convert(ring), e) for p, e in powers)) for c, powers in terms])
 
-    def literal(poly: Poly, signs: int) -> int:
-        content, primitive = poly.convert(ring).normal()
-        return 8 * lemmas.number(primitive) + (signs if content > 0 else int(f"{signs:03b}"[::-1], 2))
+    def literal(said: Atom) -> int:
+        content, primitive = said.poly.convert(ring).normal()
+        return 8 * lemmas.number(primitive) + sum(sign_bit(sign * int(content)) for sign in said.relation.signs)
 
-    cases: list[Json] = [[0, [literal(*said) for said in clause]] for clause in clauses]
+    cases: list[Json] = [[0, [*map(literal, clause)]] for clause in clauses]
     theory = lemmas.only(range(len(lemmas.lemmas)))
     assert isinstance(theory, dict)
     return {**theory, "cases": cases}

@@ -201,7 +201,11 @@ def test_no_lemma_or_case_is_there_for_nothing() -> None:
     x, y = RING.var("x"), RING.var("y")
     square = [(1, ((x * x + y * y, 1),)), (-1, ((x, 2),)), (-1, ((y, 2),))]
     needed = identities([[(1, ((x, 1),)), (-1, ((x - 1, 1),)), (-1, ())]], RING)
-    long = identities([square, [(1, ((x, 1),)), (-1, ((x - 1, 1),)), (-1, ())]], RING, [[(y, 2)], [(x, 1)]])
+    long = identities(
+        [square, [(1, ((x, 1),)), (-1, ((x - 1, 1),)), (-1, ())]],
+        RING,
+        [[Atom(y, Relation.EQ)], [Atom(x, Relation.LT)]],
+    )
     assert isinstance(long, dict)
     assert len(long["cases"]) == 2  # type: ignore[arg-type]
     assert without_needless(long, [tuple(goal("x > 1", "x < 0"))], RING, LIMITS) == needed
