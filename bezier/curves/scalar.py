@@ -9,8 +9,9 @@ the reader only and decide nothing.
 from __future__ import annotations
 
 import operator
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from fractions import Fraction
+from math import comb
 from typing import Any
 
 Vector = tuple[Any, ...]
@@ -128,6 +129,7 @@ def described(value: Any) -> dict[str, str]:
 
 Terms = dict[tuple[int, ...], Fraction]
 """A polynomial: coefficients by the exponents of its variables."""
+UNITS = ((1, 0, 0), (0, 1, 0), (0, 0, 1))
 
 
 def terms_sum(*parts: Terms) -> Terms:
@@ -147,3 +149,37 @@ def terms_scaled(factor: Fraction | int, terms: Terms) -> Terms:
 def terms_product(a: Terms, b: Terms) -> Terms:
     """The product."""
     return terms_sum(*({tuple(map(operator.add, d, e)): x * y for e, y in b.items()} for d, x in a.items()))
+
+
+def ends_of(corners: Sequence[Sequence[Any]]) -> tuple[Vector, Vector]:
+    """The least and the largest coordinates of points."""
+    axes = list(zip(*corners, strict=True))
+    return tuple(map(min, axes)), tuple(map(max, axes))
+
+
+def terms_between(terms: Mapping[tuple[int, ...], Any], corners: Sequence[Sequence[Any]]) -> tuple[Any, Any]:
+    """Numbers below and above a polynomial in the hull of points: its linear part at these, and bounds of the rest."""
+    _, values, rest = terms_about(terms, corners)
+    even = {powers for powers in rest if not any(n % 2 for n in powers)}
+    below = sum((min(c, 0) if powers in even else -abs(c) for powers, c in rest.items()), min(values))
+    return below, sum((max(c, 0) if powers in even else abs(c) for powers, c in rest.items()), max(values))
+
+
+def terms_about(
+    terms: Mapping[tuple[int, ...], Any], corners: Sequence[Sequence[Any]]
+) -> tuple[list[Any], list[Any], dict[tuple[int, ...], Any]]:
+    """Of a polynomial about the centre of the box around points: the slopes, the values of the linear part at these,
+    and the other terms in coordinates that are -1 to 1 on the box."""
+    rest, ends = dict(terms), list(zip(*ends_of(corners), strict=True))
+    middles, halves = [(a + b) / 2 for a, b in ends], [(b - a) / 2 for a, b in ends]
+    for axis, (middle, half) in enumerate(zip(middles, halves, strict=True)):
+        moved = dict[tuple[int, ...], Any]()
+        for powers, c in rest.items():
+            n = powers[axis]
+            for k in range(n + 1):
+                key = (*powers[:axis], k, *powers[axis + 1 :])
+                moved[key] = moved.get(key, 0) + c * comb(n, k) * middle ** (n - k) * half**k
+        rest = moved
+    level = rest.pop((0, 0, 0), 0)
+    slopes = [rest.pop(key, 0) / half for key, half in zip(UNITS, halves, strict=False)]
+    return slopes, [sum(map(operator.mul, slopes, subtract(p, middles)), level) for p in corners], rest

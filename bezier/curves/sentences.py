@@ -205,26 +205,48 @@ class CurveSentence:
     def _coefficients(
         self, lemmas: Lemmas, form: tuple[Sequence[Term], Poly], degree: int, span: tuple[Fraction, Fraction]
     ) -> Iterator[Poly]:
-        """The irreducible factors of the coefficients on a span; with A = da t - na and B = nb - db t, which are not
-        negative on it, w = na db - nb da: w t = na B + nb A, and w = db A + da B."""
-        (na, da), (nb, db) = (end.as_integer_ratio() for end in span)
-        t, i = self.ring.var("t"), self.ring.index["t"]
-        w, from_low, to_high = nb * da - na * db, da * t - na, nb - db * t
+        """The irreducible factors of the coefficients on a span."""
         scale, quotient, rest = _divided(form[1], self.generator[0], 0)
-        above, whole = nb * t + na, db * t + da
-        powers = enumerate(rest.coefficients(i))
-        total = _total(self.ring, ((1, c * above**j * whole ** (degree - j)) for j, c in powers))
-        terms: list[Term] = [(-c * scale * w**degree, parts) for c, parts in form[0]]
+        listed = in_bernstein(rest, self.ring.index["t"], degree, span)
+        terms: list[Term] = [(-c * scale * listed.power, parts) for c, parts in form[0]]
         if quotient:
-            terms.append((w**degree, ((self.generator[0], 1), (quotient, 1))))
-        for k, c in enumerate(total.coefficients(i)):
+            terms.append((listed.power, ((self.generator[0], 1), (quotient, 1))))
+        return listed.said(lemmas, terms)
+
+
+@dataclass(frozen=True, slots=True)
+class InBernstein:
+    """A polynomial times ``power`` is the sum of ``coefficients`` times powers of ``ends``, which are not negative on a
+    span; these times ``shares`` are ``whole``."""
+
+    power: int
+    ends: tuple[Poly, Poly]
+    shares: tuple[int, int]
+    whole: int
+    coefficients: tuple[Poly, ...]
+
+    def said(self, lemmas: Lemmas, terms: Sequence[Term]) -> Iterator[Poly]:
+        """That the sum with these terms is 0; and the irreducible factors of the coefficients."""
+        listed, degree = list(terms), len(self.coefficients) - 1
+        for k, c in enumerate(self.coefficients):
             if c:
                 unit, factors = c.factors()
-                basis = [(p, e) for p, e in ((from_low, k), (to_high, degree - k)) if e]
-                terms.append((unit, (*factors, *basis)))
+                basis = [(p, e) for p, e in ((self.ends[0], k), (self.ends[1], degree - k)) if e]
+                listed.append((unit, (*factors, *basis)))
                 yield from (factor for factor, _ in factors)
-        lemmas.identity(terms)
-        lemmas.identity(((db, ((from_low, 1),)), (da, ((to_high, 1),)), (-w, ())))
+        lemmas.identity(listed)
+        lemmas.identity((*((c, ((p, 1),)) for c, p in zip(self.shares, self.ends, strict=True)), (-self.whole, ())))
+
+
+def in_bernstein(poly: Poly, i: int, degree: int, span: tuple[Fraction, Fraction]) -> InBernstein:
+    """By powers of A = da t - na and B = nb - db t for the variable t with this number, from na/da to nb/db; with
+    w = nb da - na db: w t = na B + nb A, and w = db A + da B."""
+    (na, da), (nb, db) = (end.as_integer_ratio() for end in span)
+    t, w = poly.ring.gen(i), nb * da - na * db
+    above, whole = nb * t + na, db * t + da
+    total = _total(poly.ring, ((1, c * above**j * whole ** (degree - j)) for j, c in enumerate(poly.coefficients(i))))
+    listed = (*total.coefficients(i), *[poly.ring.constant(0)] * degree)[: degree + 1]
+    return InBernstein(w**degree, (da * t - na, nb - db * t), (db, da), w, listed)
 
 
 def by_signs(sentence: Formula, lemmas: Lemmas, budget: Budget) -> Certificate | None:
@@ -266,6 +288,11 @@ def _divided(poly: Poly, p: Poly, i: int) -> tuple[int, Poly, Poly]:
         factor = rest.leading(i) * x ** (rest.degree(i) - degree)
         scale, quotient, rest = scale * lead, quotient * lead + factor, rest * lead - factor * p
     return scale, quotient, rest
+
+
+def dyadic_above(value: Fraction) -> Fraction:
+    """A power of two, more than a positive number and at most twice it; 0 for 0."""
+    return Fraction(2) ** (_size(value) + 1) if value else value
 
 
 def dyadic_interval(theta: Any, bits: int) -> tuple[Fraction, Fraction]:

@@ -79,6 +79,10 @@ class Constraint:
 
     def formula(self, at: Sequence[Poly], scale: int = 1) -> Formula:
         """That the point with the coordinates ``at`` over ``scale`` satisfies it; the plane is where z = 0."""
+        return atom(self.poly(at, scale), self.relation)
+
+    def poly(self, at: Sequence[Poly], scale: int = 1) -> Poly:
+        """A positive multiple of f there."""
         whole, zero, degree = lcm(*(c.denominator for _, c in self.terms)), at[0] * 0, self.degree
         total = zero
         for exponents, c in self.terms:
@@ -86,7 +90,7 @@ class Constraint:
             for power, coordinate in zip(exponents, (*at, zero)[:3], strict=True):
                 term = term * coordinate**power
             total = total + term
-        return atom(total, self.relation)
+        return total
 
 
 @dataclass(frozen=True, slots=True)

@@ -81,7 +81,7 @@ def page(
         distance = _limited(along.verdict.trajectory, along.verdict.outcomes[0])
         quantities.append(replace(distance, words=WORDS, bounds=(None, float(along.within))))
     good = all(quantity.is_kept for quantity in quantities) and not verdict.breaking
-    good = good and all(finding.is_clear for finding in findings)
+    good = good and all(finding.is_clear for finding in findings) and (links is None or not links.touches)
     head = ("quantity", "limit", "worst value", "at t", "for all t")
     said = Section("verdict", "What is proved", html.bullets(lines), short="verdict")
     table = Section(
@@ -124,10 +124,12 @@ def _clearances(trajectory: Trajectory, findings: Sequence[Finding]) -> Iterator
 
 
 def _distances_of(links: Links) -> Iterator[Quantity]:
-    """The distance of the nearest link from each obstacle, its margin included."""
+    """The distance of the nearest link from each obstacle that is a body, its margin included."""
     places = {k: _samples(frame, frame.pieces) for k, frame in links.frames.items()}
     shares = np.linspace(0, 1, 13)[:, None, None]
     for i, (name, body) in enumerate(links.bodies):
+        if isinstance(body, tuple):
+            continue
         numbers = [k for k, j in links.spans if j == i]
         points = [(1 - shares) * places[links.starts[k]][1] + shares * places[k][1] for k in numbers]
         away = [signed_distances(p.reshape(-1, 3), body).reshape(p.shape[:2]).min(axis=0) for p in points]

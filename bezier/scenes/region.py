@@ -8,18 +8,16 @@ cell is small enough. Nothing here is believed: sentences speak of the formulas 
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
 from functools import partial
 from itertools import groupby
-from math import ceil, comb
-from operator import mul
-from typing import Any
+from math import ceil
 
 import qe
-from bezier.curves.scalar import dot, subtract
-from bezier.obstacles.obstacle import Constraint, Exponents
+from bezier.curves.scalar import UNITS, dot, ends_of, terms_about, terms_between
+from bezier.obstacles.obstacle import Constraint
 from bezier.scenes.barrier import Wall
 from bezier.scenes.cells import Cell, FreeCells, Point, Side
 from bezier.scenes.outlines import outlines
@@ -33,7 +31,6 @@ from qe.exact.ring import Poly
 from qe.formula.syntax import Atom
 from qe.options import Budget
 
-UNITS = ((1, 0, 0), (0, 1, 0), (0, 0, 1))
 TURNS = 16384
 """Of entries of normals that are rounded, the largest."""
 SURE = 1e-12
@@ -213,12 +210,12 @@ def _parts(scene: Scene, cell: Cell) -> list[Cell]:
 
 def _cut_through(scene: Scene, cell: Cell) -> Side:
     """Found in floating point, which decides nothing about cells."""
-    low, high = _ends(cell.floats)
+    low, high = ends_of(cell.floats)
     sizes, least = [b - a for a, b in zip(low, high, strict=True)], 1.0
     normal = tuple(Fraction(k == sizes.index(max(sizes))) for k in range(len(sizes)))
     for c in scene.conditions if len(sizes) == 2 else ():
         try:
-            slopes, values, rest = _about({powers: float(x) for powers, x in c.terms}, cell.floats)
+            slopes, values, rest = terms_about({powers: float(x) for powers, x in c.terms}, cell.floats)
         except OverflowError:
             continue
         bent, change = sum(map(abs, rest.values())), max(values) - min(values)
@@ -229,13 +226,8 @@ def _cut_through(scene: Scene, cell: Cell) -> Side:
     return normal, short_between((first * 9 + last * 7) / 16, (first * 7 + last * 9) / 16)
 
 
-def _ends(corners: Sequence[Sequence[Any]]) -> tuple[tuple[Any, ...], tuple[Any, ...]]:
-    axes = list(zip(*corners, strict=True))
-    return tuple(map(min, axes)), tuple(map(max, axes))
-
-
 def _width(cell: Cell) -> Fraction:
-    result: Fraction = max(b - a for a, b in zip(*_ends(cell.corners), strict=True))
+    result: Fraction = max(b - a for a, b in zip(*ends_of(cell.corners), strict=True))
     return result
 
 
@@ -268,36 +260,9 @@ def _span(condition: Constraint, cell: Cell) -> tuple[Fraction, Fraction]:
     try:
         rough = {powers: float(c) for powers, c in condition.terms}
         error = SURE * sum(abs(c) * far ** sum(powers) for powers, c in rough.items())
-        low, high = _bounds(rough, cell.floats)
+        low, high = terms_between(rough, cell.floats)
         if min(abs(low), abs(high)) > error:
             return Fraction(low), Fraction(high)
     except OverflowError:
         pass
-    return _bounds(dict(condition.terms), cell.corners)
-
-
-def _bounds(terms: Mapping[Exponents, Any], corners: Sequence[Sequence[Any]]) -> tuple[Any, Any]:
-    _, values, rest = _about(terms, corners)
-    even = {powers for powers in rest if not any(n % 2 for n in powers)}
-    below = sum((min(c, 0) if powers in even else -abs(c) for powers, c in rest.items()), min(values))
-    return below, sum((max(c, 0) if powers in even else abs(c) for powers, c in rest.items()), max(values))
-
-
-def _about(
-    terms: Mapping[Exponents, Any], corners: Sequence[Sequence[Any]]
-) -> tuple[list[Any], list[Any], dict[Exponents, Any]]:
-    """Of a polynomial about the centre of the box around points: the slopes, the values of the linear part at these,
-    and the other terms in coordinates that are -1 to 1 on the box."""
-    rest, ends = dict(terms), list(zip(*_ends(corners), strict=True))
-    middles, halves = [(a + b) / 2 for a, b in ends], [(b - a) / 2 for a, b in ends]
-    for axis, (middle, half) in enumerate(zip(middles, halves, strict=True)):
-        moved = dict[Exponents, Any]()
-        for powers, c in rest.items():
-            n = powers[axis]
-            for k in range(n + 1):
-                key = (*powers[:axis], k, *powers[axis + 1 :])
-                moved[key] = moved.get(key, 0) + c * comb(n, k) * middle ** (n - k) * half**k
-        rest = moved
-    level = rest.pop((0, 0, 0), 0)
-    slopes = [rest.pop(key, 0) / half for key, half in zip(UNITS, halves, strict=False)]
-    return slopes, [sum(map(mul, slopes, subtract(p, middles)), level) for p in corners], rest
+    return terms_between(dict(condition.terms), cell.corners)

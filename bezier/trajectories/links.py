@@ -1,4 +1,4 @@
-"""Whether the links of an arm stay clear of convex bodies for all t, or when and where one first meets one.
+"""Whether the links of an arm stay clear of obstacles for all t, or when and where one first meets one.
 
 A link is the segment between the origins of neighbouring frames, those within one left out, unless both never move. The
 origins are known as polynomials of the time, up to ``NEAR`` (``bezier.arm.tip``); bodies are wider by that.
@@ -9,6 +9,8 @@ the body is exact code, which makes it from its normal alone.
 
 A link also meets what is less than ``NEAR`` away, so the search ends: it halves intervals from left to right until a
 plane across the shortest connection at their middle parts them, or a contact is at their left end.
+
+That holds for convex bodies. For sets given by conditions see ``bezier.trajectories.sheets``.
 """
 
 from __future__ import annotations
@@ -17,8 +19,8 @@ import re
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
-from functools import cache, partial
-from itertools import chain, groupby, pairwise
+from functools import cache, cached_property, partial
+from itertools import groupby, pairwise
 from typing import Any
 
 from bezier.arm.model import Arm, JointKind
@@ -33,6 +35,7 @@ from bezier.obstacles.obstacle import Obstacle, ObstacleKind, Piece, half_space,
 from bezier.obstacles.polyhedron import Point, nearest
 from bezier.obstacles.survey import clearance_certificate, meeting
 from bezier.trajectories.piecewise import Trajectory
+from bezier.trajectories.sheets import Conditions, Rectangle, Sheet, cover
 from qe.errors import CertificateRejected, Unable
 from qe.formula.syntax import FALSE, TRUE
 from qe.proof.certificate import Certificate
@@ -75,25 +78,43 @@ class Links:
 
     starts: Mapping[int, int]
     frames: Mapping[int, Trajectory]
-    bodies: tuple[tuple[str, Body], ...]
-    spans: Mapping[Pair, tuple[Span, ...]]
+    bodies: tuple[tuple[str, Body | Conditions], ...]
+    spans: Mapping[Pair, tuple[Span | Rectangle, ...]]
     touches: Mapping[Pair, Touch]
 
     @staticmethod
-    def of(arm: Arm, joints: Trajectory, bodies: Sequence[tuple[str, Body]]) -> Links:
+    def of(arm: Arm, joints: Trajectory, bodies: Sequence[tuple[str, Body | Conditions]]) -> Links:
         """Everything decided. Raises ``Unable``."""
         starts = {k: start for start, k in pairwise(arm.ends) if _moves(arm, start, k)}
         used = sorted({*starts, *starts.values()})
         frames = dict(zip(used, frames_of(arm, joints, NEAR, used), strict=True))
-        spans, touches = dict[Pair, tuple[Span, ...]](), dict[Pair, Touch]()
+        spans, touches = dict[Pair, tuple[Span | Rectangle, ...]](), dict[Pair, Touch]()
+        found = Links(starts, frames, tuple(bodies), spans, touches)
         for k, start in starts.items():
             part = cache(partial(_part, frames[start], frames[k]))
             for i, (_, body) in enumerate(bodies):
-                steps = list(_followed(part, body, len(frames[k].pieces)))
-                spans[k, i] = tuple(s for s in steps if isinstance(s, Span))
+                count = len(frames[k].pieces)
+                steps = list(found._along(k, body) if isinstance(body, tuple) else _followed(part, body, count))
+                spans[k, i] = tuple(s for s in steps if not isinstance(s, Touch))
                 if isinstance(steps[-1], Touch):
                     touches[k, i] = steps[-1]
-        return Links(starts, frames, tuple(bodies), spans, touches)
+        return found
+
+    def _along(self, k: int, conditions: Conditions) -> Iterator[Rectangle | Touch]:
+        """Rectangles on which a link is clear of a set, up to where it meets that. Raises ``Unable``."""
+        for piece in range(len(self.frames[k].pieces)):
+            for step in self._sheets[k, piece].followed(conditions, piece):
+                if not isinstance(step, Rectangle):
+                    yield Touch(piece, *step)
+                    return
+                yield step
+
+    @cached_property
+    def _sheets(self) -> dict[Pair, Sheet]:
+        """The points of each link in each piece."""
+        ends = {k: [frame.curve(piece) for piece in range(len(frame.pieces))] for k, frame in self.frames.items()}
+        pairs = ((k, zip(ends[start], ends[k], strict=True)) for k, start in self.starts.items())
+        return {(k, piece): Sheet(pair, NEAR) for k, listed in pairs for piece, pair in enumerate(listed)}
 
     def time(self, pair: Pair) -> Fraction:
         """When a link meets a body."""
@@ -110,26 +131,44 @@ class Links:
     # --- proof ------------------------------------------------------------------------------------------------
     def _clear(self) -> Iterator[tuple[str, Bezier, Obstacle]]:
         """Of each origin and interval: a label, the curve, and the half-spaces that it is not in."""
-        spans = ((pair, span) for pair, listed in self.spans.items() for span in listed)
+        spans = ((pair, s) for pair, listed in self.spans.items() for s in listed if isinstance(s, Span))
         ends = ((k, pair, s) for pair, s in spans for k in (self.starts[pair[0]], pair[0]))
         listed = sorted((k, s.piece, s.low, s.high, pair, s.normal) for k, pair, s in ends)
         for (k, piece, low, high), group in groupby(listed, key=lambda entry: entry[:4]):
             entries = [entry[4:] for entry in group]
             said = "; ".join(f"{link} {i} {' '.join(map(str, normal))}" for (link, i), normal in entries)
             label = f"frame {k}, piece {piece} from {low} to {high}: {said}"
-            sides = [(normal, _level(self.bodies[i][1], normal)) for (_, i), normal in entries]
+            sides = [(normal, _level(self._body(i), normal)) for (_, i), normal in entries]
             pieces = (Piece((half_space(n, level),)) for n, level in dict.fromkeys(sides) if level is not None)
             if any(level is None for _, level in sides):
                 raise CertificateRejected(label, "no half-space with this normal holds the body")
             where = Obstacle(label, ObstacleKind.FORMULA, tuple(pieces))
             yield label, self.frames[k].curve(piece).segment(low, high), where
 
+    def _body(self, i: int) -> Body:
+        body = self.bodies[i][1]
+        assert not isinstance(body, tuple)
+        return body
+
+    def _rectangles(self) -> Iterator[tuple[str, Sheet, Conditions, Rectangle]]:
+        """Of each rectangle: a label, and what is said of it."""
+        for (k, i), listed in self.spans.items():
+            body = self.bodies[i][1]
+            for part in listed:
+                if isinstance(part, Rectangle) and isinstance(body, tuple):
+                    place = f"piece {part.piece} from {part.low} to {part.high}, share {part.first} to {part.last}"
+                    yield f"link {k}, {i}, {place}", self._sheets[k, part.piece], body, part
+
     def _touching(self) -> Iterator[tuple[str, CurveSentence, Fraction]]:
         """That links meet bodies, each at a time."""
         for pair, touch in self.touches.items():
             body = self.bodies[pair[1]][1]
-            pieces = pieces_of(replace(body, radius=body.radius + NEAR))
-            systems = [[(dict(c.terms), c.relation) for c in piece.constraints] for piece in pieces]
+            if isinstance(body, tuple):
+                sheet = self._sheets[pair[0], touch.piece]
+                pieces = sheet.around(body, (sheet.point(touch.t, touch.share),), 2)
+            else:
+                pieces = tuple(p.constraints for p in pieces_of(replace(body, radius=body.radius + NEAR)))
+            systems = [[(dict(c.terms), c.relation) for c in piece] for piece in pieces]
             label = f"link {pair[0]} meets {pair[1]} in piece {touch.piece} at {touch.t}, share {touch.share}"
             yield label, CurveSentence(self.through(pair), systems, between=(touch.t, touch.t)), touch.t
 
@@ -139,41 +178,38 @@ class Links:
             if (proof := clearance_certificate(curve, where)) is None:
                 raise Unable("an interval has no certificate")
             yield label, proof
+        yield from ((label, sheet.refuted(body, part)) for label, sheet, body, part in self._rectangles())
         yield from ((label, sentence.holds_at(t)) for label, sentence, t in self._touching())
 
     def stated(self, labels: Sequence[str]) -> list[Said]:
         """What a certificate with these labels has to say so that it proves this; nothing is searched for. Raises
         ``CertificateRejected``."""
         read = replace(self, spans=self._read(labels))
-        for pair in self.spans:
-            touch, reached = self.touches.get(pair), ZERO
-            for span in sorted(read.spans.get(pair, ())):
-                reached = max(reached, span.piece + span.high) if span.piece + span.low <= reached else reached
-            if reached < (len(self.frames[pair[0]].pieces) if touch is None else touch.piece + touch.t):
-                raise CertificateRejected(f"link {pair[0]}", "its intervals do not cover the time")
-        clear = ((label, meeting(curve, where), FALSE) for label, curve, where in read._clear())
-        touching = ((label, sentence, TRUE) for label, sentence, _ in self._touching())
+        for pair, spans in read.spans.items():
+            count, touch = len(self.frames[pair[0]].pieces), self.touches.get(pair)
+            for piece in range(count if touch is None else touch.piece + 1):
+                end = ONE if touch is None or touch.piece > piece else touch.t
+                whole = (Rectangle(s.piece, s.low, s.high) if isinstance(s, Span) else s for s in spans)
+                if not cover([part for part in whole if part.piece == piece], end):
+                    raise CertificateRejected(f"link {pair[0]}", "its intervals do not cover the time")
         said = list[Said]()
-        for label, sentence, truth in chain(clear, touching):
-            if sentence is None:
+        for label, curve, where in read._clear():
+            if (sentence := meeting(curve, where)) is None:
                 raise CertificateRejected(label, "a polynomial along it has too high a degree")
-            said.append((label, sentence.formula, truth))
-        return said
+            said.append((label, sentence.formula, FALSE))
+        said += ((label, sheet.sentence(body, part), FALSE) for label, sheet, body, part in read._rectangles())
+        return [*said, *((label, sentence.formula, TRUE) for label, sentence, _ in self._touching())]
 
-    def _read(self, labels: Sequence[str]) -> dict[Pair, tuple[Span, ...]]:
-        """The spans that labels state, of the ends of links."""
-        spans = dict.fromkeys(self.spans, tuple[Span, ...]())
-        for label in labels:
-            matched = re.fullmatch(r"frame (\d{1,3}), piece (\d{1,6}) from (\S+) to (\S+): (.*)", label)
-            if matched is None:
-                continue
-            k, piece, low, high = (stored.rational(text, label) for text in matched.groups()[:4])
-            for row in (stored.row(entry, label) for entry in matched[5].split("; ")):
-                pair, normal = tuple(map(int, row[:2])), row[2:]
-                is_known = len(row) == 5 and any(normal) and pair in spans
-                if not (is_known and 0 <= low < high <= 1 and piece < len(self.frames[pair[0]].pieces)):
+    def _read(self, labels: Sequence[str]) -> dict[Pair, tuple[Span | Rectangle, ...]]:
+        """The spans that labels state, of the ends of links, and the rectangles."""
+        spans = dict.fromkeys(self.spans, tuple[Span | Rectangle, ...]())
+        for label in dict.fromkeys(labels):
+            for pair, part in _parts(label):
+                is_known = pair in spans and isinstance(self.bodies[pair[1]][1], tuple) is isinstance(part, Rectangle)
+                if not (is_known and 0 <= part.low < part.high <= 1 and part.piece < len(self.frames[pair[0]].pieces)):
                     raise CertificateRejected(label, "no part of a piece, link, body or normal")
-                spans[pair[0], pair[1]] += (Span(int(piece), low, high, normal),) * (k == pair[0])
+                if isinstance(part, Rectangle) or label.startswith(f"frame {pair[0]},"):
+                    spans[pair] += (part,)
         return spans
 
     # --- words ------------------------------------------------------------------------------------------------
@@ -185,7 +221,9 @@ class Links:
         result = []
         for pair in sorted(self.touches, key=self.time):
             place = ", ".join(f"{float(c):.6g}" for c in self.through(pair).point(self.touches[pair].t))
-            said = f"link {pair[0]}: meets {self.bodies[pair[1]][0]} (within {float(3 * NEAR):.1g} mm)"
+            name, body = self.bodies[pair[1]]
+            near = 10 * NEAR if isinstance(body, tuple) else 3 * NEAR
+            said = f"link {pair[0]}: meets {name} (within {float(near):.1g} mm)"
             result.append(f"{said}, first at the time {float(self.time(pair)):.10g}, at ({place})")
         return result
 
@@ -193,6 +231,22 @@ class Links:
         """Each link and obstacle, with exact times."""
         times = {pair: described(self.time(pair)) for pair in self.touches}
         return [{"link": k, "obstacle": self.bodies[i][0], "first contact": times.get((k, i))} for k, i in self.spans]
+
+
+def _parts(label: str) -> Iterator[tuple[Pair, Span | Rectangle]]:
+    """What a label states of links and bodies. Raises ``CertificateRejected``."""
+    on_link = r"link (\d{1,3}), (\d{1,3}), piece (\d{1,6}) from (\S+) to (\S+), share (\S+) to (\S+)"
+    if matched := re.fullmatch(on_link, label):
+        low, high, first, last = (stored.rational(text, label) for text in matched.groups()[3:])
+        if not 0 <= first < last <= 1:
+            raise CertificateRejected(label, "no part of a link")
+        yield (int(matched[1]), int(matched[2])), Rectangle(int(matched[3]), low, high, first, last)
+    elif matched := re.fullmatch(r"frame \d{1,3}, piece (\d{1,6}) from (\S+) to (\S+): (.*)", label):
+        low, high = (stored.rational(text, label) for text in matched.groups()[1:3])
+        for row in (stored.row(entry, label) for entry in matched[4].split("; ")):
+            if len(row) != 5 or not any(row[2:]):
+                raise CertificateRejected(label, "no part of a piece, link, body or normal")
+            yield (int(row[0]), int(row[1])), Span(int(matched[1]), low, high, row[2:])
 
 
 def _moves(arm: Arm, start: int, end: int) -> bool:

@@ -116,13 +116,72 @@ def test_links_stay_in_a_convex_domain_that_samples_stay_in(name: str, tmp_path:
             result.check(other.certificate)
 
 
-def test_a_domain_with_a_hole_is_refused_for_links(tmp_path: Path) -> None:
-    """Both ends of a link may be in it, and its middle in the hole."""
-    hole = {"kind": "annulus", "centre": [0, 0], "inner": 10, "outer": 900, "bottom": -900, "top": 900}
-    (tmp_path / "scene.json").write_text(json.dumps({"domain": hole}))
-    with pytest.raises(InputError, match="convex"):
+HOLES = {
+    "an annulus": {"kind": "annulus", "centre": [30, 120], "inner": "R", "outer": 900, "bottom": -900, "top": 900},
+    "a formula": [
+        {"low": [-900] * 3, "high": [900] * 3},
+        {"kind": "formula", "formula": "(x - 30)^2 + (y - 120)^2 >= (R)^2 | z >= 5"},
+    ],
+}
+
+
+@pytest.mark.parametrize("name", HOLES)
+def test_links_stay_outside_of_a_hole_of_the_domain(name: str, tmp_path: Path) -> None:
+    """Both ends of a link are in the domain, and its middle may be in the hole."""
+    ends = (np.array(skeleton(load_arm("planar-3r"), SMALL(t))) for t in np.linspace(0, 2, 401))
+    legs = ((1 - SHARES) * p[k] + SHARES * p[k + 1] - [30, 120, 0] for p in ends for k in range(3))
+    far = min(np.linalg.norm(points, axis=1).min() for points in legs)
+    for side in (1, -1):
+        radius = repr(float(far) + side / 100)
+        text = json.dumps({"domain": HOLES[name]}).replace('"R"', radius).replace("(R)", f"({radius})")
+        (tmp_path / "scene.json").write_text(text)
         table = load_table(tmp_path / "scene.json")
-        Certified.of(from_scipy(SMALL), [], table, F(1, 10**9), load_arm("planar-3r"))
+        result = Certified.of(from_scipy(SMALL), [], table, F(1, 10**9), load_arm("planar-3r"))
+        assert result.kept is ("inside the domain for all t" in str(result)) is (side < 0)
+        assert ("meets hole" in str(result)) is (side > 0)
+        result.check(qe.Certificate.from_json(result.certificate.to_json()))
+        assert ("refuted" in result.page("planar")) is (side > 0)
+
+
+FORMULAS = {
+    "(x - 60)^2 + (y - 90)^2 + z^2 <= 1600 | x >= 220": lambda x, y, z: (
+        ((x - 60) ** 2 + (y - 90) ** 2 <= 1600) | (x >= 220)
+    ),
+    "x*y >= 14000 & x <= 190 & z <= 5": lambda x, y, z: (x * y >= 14000) & (x <= 190) & (z <= 5),
+    "y = 100 & x^3 <= 1000000": lambda x, y, z: (abs(y - 100) < 0.5) & (x**3 <= 1000000),
+    "x^3 + y^3 >= 13000000 & z^2 <= 900 & y*z <= 2000": (
+        lambda x, y, z: (x**3 + y**3 >= 13000000) & (z**2 <= 900) & (y * z <= 2000)
+    ),
+    "z >= 200 + x^2/100 | y <= -300": lambda x, y, z: (z >= 200 + x**2 / 100) | (y <= -300),
+}
+
+
+@each(*FORMULAS, daily=3)
+@pytest.mark.parametrize("arm", ["planar-3r", "ev3-120"])
+def test_links_meet_the_formulas_that_samples_meet_and_when(formula: str, arm: str) -> None:
+    found = bezier.certify(MOTION, robot=arm, obstacles=[{"kind": "formula", "formula": formula}])
+    found.check(qe.Certificate.from_json(found.certificate.to_json()))
+    at, times = places(arm), {pair: float(found.links.time(pair)) for pair in found.links.touches}
+    for k, i in found.links.spans:
+        points = [(1 - SHARES) * p[k - 1] + SHARES * p[k] for p in at]
+        met = [bool(np.any(FORMULAS[formula](*p.T))) for p in points]
+        first = TIMES[met.index(True)] if any(met) else None
+        assert (first is not None) is ((k, i) in times)
+        assert first is None or times[k, i] - 0.05 < first < times[k, i] + 0.05
+
+
+def test_a_ball_is_met_at_the_same_time_as_its_formula() -> None:
+    body = {**BALL, "centre": [200, 60, 0]}
+    formula = {"kind": "formula", "formula": "(x - 200)^2 + (y - 60)^2 + z^2 <= 400"}
+    one, other = (bezier.certify(MOTION, robot="planar-3r", obstacles=[o]).links for o in (body, formula))
+    assert one.touches.keys() == other.touches.keys() == {(3, 0)}
+    assert abs(one.time((3, 0)) - other.time((3, 0))) < 1e-6
+
+
+@each(("x^2 + y^2 <= 9", "margin", "no margin for a formula"), ("x^40 >= 10^120", "name", "degree above 64"))
+def test_formulas_that_are_not_decided_for_links_are_refused_in_a_line(formula: str, key: str, said: str) -> None:
+    with pytest.raises((InputError, qe.Unable), match=said):
+        bezier.certify(SMALL, robot="ev3-120", obstacles=[{"kind": "formula", "formula": formula, key: "2"}])
 
 
 def test_a_contact_of_a_link_that_begins_at_the_base_has_a_certificate() -> None:
@@ -165,8 +224,6 @@ def test_frames_are_where_floating_point_has_them_and_fixed_ones_stay(arm: str) 
 def test_a_table_under_the_base_is_not_met_by_what_never_moves() -> None:
     table = {"kind": "half_space", "normal": [0, 0, 1], "offset": 0}
     assert bezier.certify(SMALL, robot="ev3-120", obstacles=[table]).kept
-    with pytest.raises(InputError, match="no margin for a formula"):
-        bezier.certify(SMALL, robot="ev3-120", obstacles=[{"kind": "formula", "formula": "x >= 900"}])
 
 
 @pytest.fixture(scope="module")
@@ -184,6 +241,38 @@ def test_a_certificate_has_to_cover_the_time_with_parts_of_pieces(clear: Any) ->
         members = list(replace(links, spans={**links.spans, pair: fewer}).members())
         with pytest.raises(qe.CertificateRejected, match=r"cover|no part"):
             clear.check(qe.Certificate.bundle(members))
+
+
+@pytest.fixture(scope="module")
+def beside() -> Any:
+    """A motion that is clear of a formula."""
+    formula = "(x - 180)^2 + (y - 60)^2 + z^2 <= 190 | x <= 228 & x >= 226 & y >= 45"
+    return bezier.certify(SMALL, robot="planar-3r", obstacles=[{"kind": "formula", "formula": formula}])
+
+
+def test_rectangles_have_to_cover_the_motion(beside: Any) -> None:
+    links: Links = beside.links
+    assert beside.kept and any(part.low for parts in links.spans.values() for part in parts)
+    for pair, parts in links.spans.items():
+        for k, part in enumerate(parts):
+            for fewer in ((), (replace(part, last=(part.first + part.last) / 2),), (replace(part, low=(part.low + part.high) / 2),)):
+                changed = replace(links, spans={**links.spans, pair: (*parts[:k], *fewer, *parts[k + 1 :])})
+                with pytest.raises(qe.CertificateRejected, match="cover"):
+                    beside.check(qe.Certificate.bundle(list(changed.members())))
+
+
+@each(
+    "link 1, 0, piece 0 from 0 to 1, share 0 to 2",
+    "link 1, 0, piece 7 from 0 to 1, share 0 to 1",
+    "link 1, 3, piece 0 from 0 to 1, share 0 to 1",
+    "link 1, 0, piece 0 from 0 to 1e999999, share 0 to 1",
+    "link 1, 0, piece 0 from 1/2 to 1/2, share 0 to 1",
+    "frame 1, piece 0 from 0 to 1: 1 0 1 0 0",
+)
+def test_labels_about_no_rectangle_are_rejected(label: str, beside: Any) -> None:
+    members = [(m.label, m.certificate) for m in beside.certificate.payload]
+    with pytest.raises(qe.CertificateRejected):
+        beside.check(qe.Certificate.bundle([*members, (label, members[0][1])]))
 
 
 def test_a_contact_is_not_believed_and_neither_is_another_scene(clear: Any) -> None:
@@ -216,7 +305,9 @@ def test_labels_that_say_nothing_are_rejected(entry: str, clear: Any) -> None:
 
 
 @each(*range(40), daily=6)
-def test_altered_certificates_are_rejected(seed: int, clear: Any) -> None:
+@pytest.mark.parametrize("name", ["clear", "beside"])
+def test_altered_certificates_are_rejected(seed: int, name: str, request: pytest.FixtureRequest) -> None:
+    clear = request.getfixturevalue(name)
     random, members = np.random.default_rng(seed), [(m.label, m.certificate) for m in clear.certificate.payload]
     i = random.integers(len(members))
     other = next(proof for _, proof in members[::-1] if proof != members[i][1])  # a fixed frame says the same twice
