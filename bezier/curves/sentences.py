@@ -17,7 +17,7 @@ the coordinates are put in, and the numbers for what is left.
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import cached_property
@@ -199,19 +199,19 @@ class CurveSentence:
         for low, high, i in spans:
             if i is not None and isinstance(self.comparison(system[i]), Atom):
                 degree = self.curve.degree * max(map(sum, system[i][0]), default=0)
-                signs |= dict.fromkeys(self._coefficients(lemmas, self._along(system[i]), degree, (low, high)))
+                signs |= self._coefficients(lemmas, self._along(system[i]), degree, (low, high))
         lemmas.line(list(signs), 0)
 
     def _coefficients(
         self, lemmas: Lemmas, form: tuple[Sequence[Term], Poly], degree: int, span: tuple[Fraction, Fraction]
-    ) -> Iterator[Poly]:
+    ) -> dict[Poly, None]:
         """The irreducible factors of the coefficients on a span."""
         scale, quotient, rest = _divided(form[1], self.generator[0], 0)
         listed = in_bernstein(rest, self.ring.index["t"], degree, span)
         terms: list[Term] = [(-c * scale * listed.power, parts) for c, parts in form[0]]
         if quotient:
             terms.append((listed.power, ((self.generator[0], 1), (quotient, 1))))
-        return listed.said(lemmas, terms)
+        return listed.say(lemmas, terms)
 
 
 @dataclass(frozen=True, slots=True)
@@ -225,17 +225,18 @@ class InBernstein:
     whole: int
     coefficients: tuple[Poly, ...]
 
-    def said(self, lemmas: Lemmas, terms: Sequence[Term]) -> Iterator[Poly]:
-        """That the sum with these terms is 0; and the irreducible factors of the coefficients."""
-        listed, degree = list(terms), len(self.coefficients) - 1
+    def say(self, lemmas: Lemmas, terms: Sequence[Term]) -> dict[Poly, None]:
+        """That the sum with these terms is 0. Returns the irreducible factors of the coefficients."""
+        listed, degree, signs = list(terms), len(self.coefficients) - 1, dict[Poly, None]()
         for k, c in enumerate(self.coefficients):
             if c:
                 unit, factors = c.factors()
                 basis = [(p, e) for p, e in ((self.ends[0], k), (self.ends[1], degree - k)) if e]
                 listed.append((unit, (*factors, *basis)))
-                yield from (factor for factor, _ in factors)
+                signs |= dict.fromkeys(factor for factor, _ in factors)
         lemmas.identity(listed)
         lemmas.identity((*((c, ((p, 1),)) for c, p in zip(self.shares, self.ends, strict=True)), (-self.whole, ())))
+        return signs
 
 
 def in_bernstein(poly: Poly, i: int, degree: int, span: tuple[Fraction, Fraction]) -> InBernstein:

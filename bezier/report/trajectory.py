@@ -17,7 +17,7 @@ from bezier.report import html
 from bezier.report.html import Card, Page, Section
 from bezier.trajectories.along import WORDS, Along
 from bezier.trajectories.limits import Outcome, Verdict, limited
-from bezier.trajectories.links import NEAR, Links
+from bezier.trajectories.links import Links
 from bezier.trajectories.piecewise import Trajectory
 
 SAMPLES = 2000
@@ -134,7 +134,7 @@ def _distances_of(links: Links) -> Iterator[Quantity]:
         points = [(1 - shares) * places[links.starts[k]][1] + shares * places[k][1] for k in numbers]
         away = [signed_distances(p.reshape(-1, 3), body).reshape(p.shape[:2]).min(axis=0) for p in points]
         times, kept = places[numbers[0]][0], not any(j == i for _, j in links.touches)
-        yield _distance(name, times, np.min(away, axis=0) + float(NEAR), 0.0, kept)
+        yield _distance(name, times, np.min(away, axis=0), 0.0, kept)
 
 
 def _distance(name: str, times: Array, distances: Array, margin: float, kept: bool) -> Quantity:

@@ -79,11 +79,11 @@ class Scene:
         return f"in {held[0].name}" if held else None
 
 
-def read_scene(table: Table, ends: tuple[Point, Point] | None = None, more: Fraction = ZERO) -> Scene:
+def read_scene(table: Table, ends: tuple[Point, Point] | None = None) -> Scene:
     """A scene from a table with ``start``, ``goal``, ``domain`` (one table or a list whose intersection it is),
     ``obstacle``, a list, and ``margin``, which is added to that of every obstacle. ``ends``: start and goal in place of
-    those of the table, which then need not have a domain; ``more``: what is added to all margins, too, but for
-    formulas. The kinds of obstacles and workspaces are in docs/scenes.md. Raises ``qe.InputError``, naming the key.
+    those of the table, which then need not have a domain. The kinds of obstacles and workspaces are in docs/scenes.md.
+    Raises ``qe.InputError``, naming the key.
     """
     values = {("obstacle" if key == "obstacles" else key): value for key, value in table.values.items()}
     table = replace(table, values={key: value for key, value in values.items() if key not in NOTES})
@@ -99,7 +99,7 @@ def read_scene(table: Table, ends: tuple[Point, Point] | None = None, more: Frac
     if ends is None or "domain" in table.values:
         domain, holes = _domain(table, size)
         span = _around(table, domain)
-    extra, bodies, surfaces = _margin(table, more), list[Solid](), list[Surface]()
+    extra, bodies, surfaces = table.not_negative("margin"), list[Solid](), list[Surface]()
     for k, entry in enumerate(table.tables("obstacle"), start=1):
         surface = _surface(entry, k, size)
         if surface is not None:
@@ -107,9 +107,7 @@ def read_scene(table: Table, ends: tuple[Point, Point] | None = None, more: Frac
             margin = _margin(entry, extra)
             parts = enumerate(surface.cores, start=1)
             bodies += (of_sides(f"{surface.name}, part {i}", c.corners, c.sides, margin) for i, c in parts)
-            continue
-        margin = extra - more if _kind(entry) == "formula" else extra
-        if (body := _solid(entry, k, size, margin, None if ends else span)) is not None:
+        elif (body := _solid(entry, k, size, extra, None if ends else span)) is not None:
             bodies.append(body)
     formulas = tuple(body for body in (*bodies, *holes) if body.is_formula)
     convex, holes = (tuple(b for b in listed if not b.is_formula) for listed in (bodies, holes))

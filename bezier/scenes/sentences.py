@@ -7,13 +7,12 @@ from fractions import Fraction
 from functools import partial
 from math import comb, lcm
 
-from bezier.curves.enclosure import root_above
-from bezier.curves.scalar import dot, subtract, terms_sum
+from bezier.curves.scalar import dot, subtract
 from bezier.obstacles.obstacle import Constraint, Obstacle, ObstacleKind, Piece, half_space
 from bezier.scenes.barrier import Wall
 from bezier.scenes.cells import Cell, Point, Side, opposite
 from bezier.scenes.scene import Scene
-from bezier.scenes.solid import ZERO, Solid, directions
+from bezier.scenes.solid import Solid, directions
 from qe.errors import CertificateRejected
 from qe.exact.ring import Poly, Ring
 from qe.formula.build import atom, conj, disj, forall, neg
@@ -103,17 +102,9 @@ def cell_of(wall: Wall | Cell) -> Cell:
     return Cell.of(sides, (a, b), is_flat=True)
 
 
-def beyond(scene: Scene, near: Fraction = ZERO) -> list[tuple[Constraint]]:
-    """For each condition on the workspace that it does not hold, or fails somewhere less than ``near`` away."""
-    listed = [(c, part.radius + part.tube) for part in scene.domain for (known,) in (part.pieces,) for c in known]
-    return [(_nearer(c, near, radius).negated if near else c.negated,) for c, radius in listed]
-
-
-def _nearer(condition: Constraint, near: Fraction, radius: Fraction) -> Constraint:
-    """What holds only where a half-space, or a ball or tube of this radius, holds all that is so near."""
-    square = sum((c * c for powers, c in condition.terms if any(powers)), ZERO)
-    rate = root_above(square, 64) if condition.degree < 2 else 2 * radius
-    return Constraint.of(terms_sum(dict(condition.terms), {(0, 0, 0): -near * rate}))
+def beyond(scene: Scene) -> list[tuple[Constraint]]:
+    """For each condition on the workspace that it does not hold."""
+    return [(c.negated,) for part in scene.domain for (known,) in (part.pieces,) for c in known]
 
 
 def in_the_way(scene: Scene, curves: Sequence[Curve]) -> Iterator[Obstacle]:

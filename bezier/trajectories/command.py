@@ -69,8 +69,8 @@ def _pairs(table: Table, raw: object, axes: int) -> list[tuple[Fraction, Fractio
     return pairs
 
 
-def scene_of(table: Table, moving: Trajectory, more: Fraction = Fraction(0)) -> Scene:
-    """The scene of a table for a moving point, with ``more`` margin; its ``start`` and ``goal`` are those of the point.
+def scene_of(table: Table, moving: Trajectory) -> Scene:
+    """The scene of a table for a moving point; its ``start`` and ``goal`` are those of the point.
     Where vectors of obstacles have three entries it is in space, and the plane at the height 0. Raises ``InputError``.
     """
     if len(moving.names) not in (2, 3):
@@ -81,7 +81,7 @@ def scene_of(table: Table, moving: Trajectory, more: Fraction = Fraction(0)) -> 
     size = 3 if any(isinstance(v, list) and len(v) == 3 for v in vectors) else len(moving.names)
     ends = ((row, t) for row, t in ((moving.pieces[0], Fraction(0)), (moving.pieces[-1], moving.lengths[-1])))
     start, goal = ((*(p(t) for p in row), Fraction(0))[:size] for row, t in ends)
-    return read_scene(table, (start, goal), more)
+    return read_scene(table, (start, goal))
 
 
 def in_the_way(scene: Scene, axes: int) -> tuple[list[Obstacle], list[Limit]]:
@@ -94,9 +94,9 @@ def in_the_way(scene: Scene, axes: int) -> tuple[list[Obstacle], list[Limit]]:
     return [*obstacles, *outside(scene)], []
 
 
-def outside(scene: Scene, near: Fraction = Fraction(0)) -> list[Obstacle]:
-    """What is outside of a workspace, or less than ``near`` inside, if there is one."""
-    pieces = tuple(map(Piece, beyond(scene, near)))
+def outside(scene: Scene) -> list[Obstacle]:
+    """What is outside of a workspace, if there is one."""
+    pieces = tuple(map(Piece, beyond(scene)))
     return [Obstacle("the outside of the workspace", ObstacleKind.FORMULA, pieces)] if pieces else []
 
 
@@ -169,11 +169,11 @@ class Certified:
             limits = [*limits, *arm_limits(robot, trajectory)]
         scene, findings, links = None, None, None
         if table is not None and robot is not None:
-            scene = scene_of(table, tip_of(robot, trajectory, NEAR), NEAR)
-            bodies = [(b.name, b.pieces if b.body is None or b.is_open else b.body) for b in scene.bodies]
-            links = Links.of(robot, trajectory, bodies)
-            ends = {f"piece {i}, frame {k}": c for k, frame in links.frames.items() for i, c in _curves(frame)}
-            findings = survey.survey(ends, outside(scene, NEAR), distances=False) if scene.domain else None
+            scene = scene_of(table, tip_of(robot, trajectory, NEAR))
+            bodies = sorted(scene.bodies, key=lambda b: b.is_open)
+            listed = [(b.name, b.pieces if b.body is None or b.is_open else b.body) for b in bodies]
+            listed += ((o.name, tuple(p.constraints for p in o.pieces)) for o in outside(scene))
+            links = Links.of(robot, trajectory, listed, sum(not b.is_open for b in bodies))
         elif table is not None:
             scene = scene_of(table, trajectory)
             obstacles, inside = in_the_way(scene, len(trajectory.names))
@@ -202,19 +202,15 @@ class Certified:
     def lines(self) -> list[str]:
         """A line for each limit, each contact, and what follows."""
         lines, contacts = in_words(self.verdict), survey.contacts(self.findings or ())
-        moved = self.verdict.trajectory if self.links is None else next(iter(self.links.frames.values()))
+        moved = self.verdict.trajectory
         times = {f"piece {i}": span for i, span in enumerate(zip(moved.breaks, moved.lengths, strict=False), start=1)}
         for f in contacts:
-            start, length = times[f.name.partition(",")[0]]
+            start, length = times[f.name]
             time = start + length * sum(f.outcome.t) / 2 if isinstance(f.outcome, Contact) else start
             lines.append(f"{survey.in_words(f)}, at the time {float(time):.10g}")
-        if self.links is not None and self.scene is not None:
-            is_left = any(self.scene.bodies[i].is_open for _, i in self.links.touches)
-            if self.findings and not contacts and not is_left:
-                lines.append("links, the segments between origins of frames: inside the domain for all t")
-        elif self.findings and not contacts:
+        if self.findings and not contacts:
             lines.append(f"clear of all obstacles for all t: {len(self.findings)} pairs of pieces and obstacles")
-        lines += [] if self.links is None or not self.links.spans else self.links.lines
+        lines += [] if self.links is None else self.links.lines
         return lines if self.along is None else [*lines, self.along.line]
 
     def __str__(self) -> str:

@@ -9,10 +9,9 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from fractions import Fraction
-from math import comb, lcm
+from math import lcm
 
-from bezier.curves import bernstein as bs
-from bezier.curves.sentences import Said, by_signs
+from bezier.curves.sentences import Said, by_signs, in_bernstein
 from bezier.trajectories.limits import Limit, Outcome, Verdict, limited
 from bezier.trajectories.piecewise import Trajectory
 from qe.errors import Unable
@@ -116,8 +115,9 @@ def refuted(sentence: Formula, excesses: Sequence[Poly], length: Fraction) -> Ce
     for poly in dict.fromkeys(excesses):
         if poly.is_constant:
             continue
-        if terms := _by_bernstein(poly, length):
-            lemmas.identity(terms)
+        listed = in_bernstein(poly, 0, poly.degree(0), (Fraction(0), length))
+        if all(c.constant_value() <= 0 for c in listed.coefficients):
+            listed.say(lemmas, [(-listed.power, ((poly, 1),))])
             continue
         unit, factors = poly.factors()
         if len(factors) > 1 or factors[0][1] > 1:
@@ -126,20 +126,6 @@ def refuted(sentence: Formula, excesses: Sequence[Poly], length: Fraction) -> Ce
     if (certificate := by_signs(sentence, lemmas, Budget())) is None:
         raise Unable("a piece has no certificate")
     return certificate
-
-
-def _by_bernstein(poly: Poly, length: Fraction) -> list[tuple[int, tuple[tuple[Poly, int], ...]]]:
-    """The polynomial and the terms that make 0 with it, positive multiples of t^i (length - t)^j; none where it has a
-    positive coefficient in Bernstein form on [0, length]."""
-    powers = [Fraction(int(c.constant_value())) for c in poly.coefficients(0)]
-    form = bs.from_power([c * length**k for k, c in enumerate(powers)])
-    if any(c > 0 for c in form):
-        return []
-    (low, high), n = _ends(length), len(form) - 1
-    scaled = [-c * comb(n, k) / length**n / (-length.denominator) ** (n - k) for k, c in enumerate(form)]
-    below = lcm(*(c.denominator for c in scaled))
-    listed = [(int(c * below), [(low, k), (high, n - k)]) for k, c in enumerate(scaled) if c]
-    return [(below, ((poly, 1),)), *((c, tuple(pair for pair in pairs if pair[1])) for c, pairs in listed)]
 
 
 def stated(verdict: Verdict) -> list[Said]:

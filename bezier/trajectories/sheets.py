@@ -48,13 +48,15 @@ Conditions = tuple[tuple[Constraint, ...], ...]
 
 @dataclass(frozen=True, slots=True, order=True)
 class Rectangle:
-    """Where no point of a segment is in a set: in this ``piece``, for these t, between these shares."""
+    """Where no point of a segment is in a set: in this ``piece``, for these t, between these shares. ``normal``: of a
+    half-space that holds the set."""
 
     piece: int
     low: Fraction
     high: Fraction
     first: Fraction = ZERO
     last: Fraction = ONE
+    normal: Vector = ()
 
 
 @dataclass(frozen=True, eq=False)
@@ -64,15 +66,19 @@ class Sheet:
     ends: tuple[Bezier, Bezier]
     near: Fraction
 
-    def point(self, t: Fraction, share: Fraction) -> Vector:
-        """P(t, share)."""
-        a, b = (end.point(t) for end in self.ends)
-        return tuple(x + share * (y - x) for x, y in zip(a, b, strict=True))
+    def through(self, share: Fraction) -> Bezier:
+        """The curve of a point that divides the segment."""
+        pairs = zip(*(end.points for end in self._alike), strict=True)
+        return Bezier(tuple(tuple(x + share * (y - x) for x, y in zip(a, b, strict=True)) for a, b in pairs))
 
     def touched(self, conditions: Conditions, t: Fraction, share: Fraction) -> bool:
         """Whether a point is in the set, up to twice what ``near`` changes."""
-        at = self.point(t, share)
+        at = self.through(share).point(t)
         return any(all(c.value(at) >= 0 for c in piece) for piece in self.around(conditions, (at,), 2))
+
+    def beside(self, conditions: Conditions, part: Rectangle) -> Conditions:
+        """The set made wider: for the points of a rectangle."""
+        return self.around(conditions, self.corners(part))
 
     def around(self, conditions: Conditions, points: Sequence[Vector], times: int = 1) -> Conditions:
         """The set made wider: for points in the box around these, so many ``times`` what ``near`` changes."""
@@ -96,7 +102,7 @@ class Sheet:
             while waiting:
                 first, last = waiting.pop()
                 part, count = Rectangle(piece, low, high, first, last), count + 1
-                seen = self._seen(conditions, part)
+                seen = self._seen(self.beside(conditions, part), part)
                 ends_clear = all(any(row[end] for row in piece) for piece in seen for end in (0, 1))
                 if all(any(everywhere for _, _, everywhere in piece) for piece in seen):
                     yield part
@@ -119,7 +125,7 @@ class Sheet:
     def _seen(self, conditions: Conditions, part: Rectangle) -> list[list[tuple[bool, bool, bool]]]:
         """Whether a condition fails at the first share, at the last, and everywhere on a rectangle, by the signs of
         coefficients."""
-        return [[self._fails(c, part) for c in piece] for piece in self.around(conditions, self._corners(part))]
+        return [[self._fails(c, part) for c in piece] for piece in conditions]
 
     def _fails(self, condition: Constraint, part: Rectangle) -> tuple[bool, bool, bool]:
         def is_negative(c: Poly) -> bool:
@@ -131,11 +137,10 @@ class Sheet:
         ends = is_negative(first), is_negative((first, *others)[-1])
         return *ends, all(ends) and all(map(is_negative, others[:-1]))
 
-    def _corners(self, part: Rectangle) -> list[Vector]:
+    def corners(self, part: Rectangle) -> list[Vector]:
         """Points with the rectangle in their hull."""
-        a, b = (end.segment(part.low, part.high).points for end in self._alike)
-        pairs = [(p, q, s) for p, q in zip(a, b, strict=True) for s in (part.first, part.last)]
-        return [tuple(x + s * (y - x) for x, y in zip(p, q, strict=True)) for p, q, s in pairs]
+        curves = (self.through(share).segment(part.low, part.high) for share in (part.first, part.last))
+        return [p for curve in curves for p in curve.points]
 
     @cached_property
     def _alike(self) -> list[Bezier]:
@@ -143,23 +148,22 @@ class Sheet:
 
     # --- proof ------------------------------------------------------------------------------------------------
     def sentence(self, conditions: Conditions, part: Rectangle) -> Formula:
-        """That a point of the rectangle is in the set, which is made wider."""
-        pieces = self.around(conditions, self._corners(part))
+        """That a point of the rectangle is in the set."""
         within = [(T, part.low, part.high), (S, part.first, part.last)]
         ends = [atom(x * low.denominator - low.numerator, Relation.GE) for x, low, _ in within]
         ends += [atom(x * high.denominator - high.numerator, Relation.LE) for x, _, high in within]
-        held = disj(conj(atom(self._along(c), Relation.GE) for c in piece) for piece in pieces)
+        held = disj(conj(atom(self._along(c), Relation.GE) for c in piece) for piece in conditions)
         return exists(RING.names, conj((*ends, held)))
 
     def refuted(self, conditions: Conditions, part: Rectangle) -> Certificate:
         """That no point is. Raises ``Unable``."""
         lemmas = Lemmas(RING)
         signs = dict.fromkeys(T * end.denominator - end.numerator for end in (part.low, part.high))
-        for piece, seen in zip(self.around(conditions, self._corners(part)), self._seen(conditions, part), strict=True):
+        for piece, seen in zip(conditions, self._seen(conditions, part), strict=True):
             whole = self._along(next(c for c, (_, _, everywhere) in zip(piece, seen, strict=True) if everywhere))
             if not whole.is_constant:
                 listed = self._coefficients(whole, part)
-                signs |= dict.fromkeys(listed.said(lemmas, [(-listed.power, ((whole, 1),))]))
+                signs |= listed.say(lemmas, [(-listed.power, ((whole, 1),))])
         lemmas.line(list(signs), 0)
         proof = by_signs(self.sentence(conditions, part), lemmas, Budget())
         if proof is None:
