@@ -12,14 +12,10 @@ from html import escape
 from typing import Any
 
 from bezier.curves.scalar import exact_text
-from qe.decomposition.pieces import Piece, Range, RootFunction
-from qe.exact.algebraic_text import square_part
-from qe.exact.ring import Poly
-from qe.formula.notation import monomials
+from qe.decomposition.pieces import Piece, Range
 from qe.formula.syntax import Formula
 from qe.formula.traverse import conjuncts
 from qe.io import mathml
-from qe.io.mathml import bracketed
 
 _HATTED = re.compile(r'<mover accent="true"><mi>(.)</mi><mo>\^</mo></mover>')
 _POINT = re.compile(r"([pqr])([0-9])([xyz])")
@@ -138,11 +134,6 @@ def vector(values: Iterable[Any]) -> str:
     return mathml.bracketed("<mo>,</mo>".join(map(number, values)))
 
 
-def polynomial(poly: Poly) -> str:
-    """A polynomial, highest degree first."""
-    return mathml.polynomial(monomials(poly), name)
-
-
 def formula(node: Formula) -> str:
     """A formula on one line."""
     return mathml.expression(node, draw=name)
@@ -162,30 +153,12 @@ def bounds(item: Range) -> str:
     """``lower <= x < upper``, or ``x = value``."""
     middle = name(item.variable)
     if item.is_point and item.lower is not None:
-        return f"<mrow>{middle}<mo>=</mo>{root_function(item.lower)}</mrow>"
-    left = "" if item.lower is None else f"{root_function(item.lower)}<mo>{_relation(item.lower_closed)}</mo>"
-    right = "" if item.upper is None else f"<mo>{_relation(item.upper_closed)}</mo>{root_function(item.upper)}"
+        return f"<mrow>{middle}<mo>=</mo>{number_text(str(item.lower))}</mrow>"
+    left = "" if item.lower is None else f"{number_text(str(item.lower))}<mo>{_relation(item.lower_closed)}</mo>"
+    right = "" if item.upper is None else f"<mo>{_relation(item.upper_closed)}</mo>{number_text(str(item.upper))}"
     free = "" if left or right else "<mo>∈</mo><mi>ℝ</mi>"
     return f"<mrow>{left}{middle}{right}{free}</mrow>"
 
 
 def _relation(closed: bool) -> str:
     return "≤" if closed else "&lt;"
-
-
-def root_function(root: RootFunction) -> str:
-    """A root of a polynomial in its main variable over the earlier variables."""
-    if root.value is not None:
-        return number(root.value)
-    if root.written is None:
-        inside = f"{polynomial(root.poly)}<mo>,</mo>{name(root.poly.ring.names[root.poly.level])}"
-        return f"<mrow><msub><mi>root</mi><mn>{root.k}</mn></msub>{bracketed(inside)}</mrow>"
-    front, radicand, bottom = root.written
-    top = polynomial(front) if front or radicand is None else ""
-    if radicand is not None:
-        sign = "<mo>−</mo>" if root.k == 1 else "<mo>+</mo>" if top else ""
-        outside = square_part(abs(radicand.normal()[0]) or 1)
-        factor = f"<mn>{outside}</mn>" if outside > 1 else ""
-        top = f"<mrow>{top}{sign}{factor}<msqrt>{polynomial(radicand.exact_divide(outside**2))}</msqrt></mrow>"
-    is_one = bottom.is_constant and bottom.constant_value() == 1
-    return top if is_one else f"<mfrac>{top}{polynomial(bottom)}</mfrac>"

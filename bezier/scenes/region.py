@@ -14,6 +14,7 @@ from fractions import Fraction
 from functools import partial
 from itertools import groupby
 from math import ceil
+from typing import Any
 
 import qe
 from bezier.curves.scalar import UNITS, dot, ends_of, terms_about, terms_between
@@ -33,6 +34,8 @@ from qe.options import Budget
 
 TURNS = 16384
 """Of entries of normals that are rounded, the largest."""
+STEPS, NEARLY = 401, 1e-9
+"""Of a ray; what a condition that is nearly kept may be off by, as a part of its terms."""
 SURE = 1e-12
 """What floating point may be wrong by, as a part of the terms that are added."""
 SMALLEST, SMALL, MOST_CELLS, ONE = Fraction(1, 2**24), Fraction(1, 200), 600, Fraction(1)
@@ -102,6 +105,52 @@ def decomposed(scene: Scene, fine: int, budget: Budget, even: Fraction = ONE) ->
     )
     within = replace(scene, formulas=(), holes=(*scene.holes, *solids))
     return Decomposed(domain, FreeCells.linked(free, around), within, numbers)
+
+
+# --- what is seen ---------------------------------------------------------------------------------------
+def seen_from(scene: Scene, point: Point) -> tuple[Constraint, ...]:
+    """Polynomials of formulas, positive at a point, with the zeros that rays from there first meet in the way; none
+    where such a ray meets another zero of them before. Floating point, which decides nothing."""
+    import numpy as np
+
+    signed = dict.fromkeys(replace(c, strict=False) for same in scene.conditions for c in (same, same.negated))
+    listed = [c for c in signed if c.value((*point, ZERO)[:3]) > 0]
+    wide = float(sum(b - a for a, b in zip(scene.low, scene.high, strict=True)))
+    start, shares = np.array([*map(float, point), 0.0][:3]), np.linspace(0.0, 1.0, STEPS)
+    met, rays = set[int](), list[list[tuple[float, int, bool]]]()
+    for ray in directions(scene.dimension, 4 if scene.dimension == 2 else 3):
+        unit = np.array([*map(float, ray), 0.0][:3])
+        away, zeros = wide * unit / np.linalg.norm(unit), list[tuple[float, int, bool]]()
+        for i, c in enumerate(listed):
+            values = _roughly(c, start[:, None] + away[:, None] * shares)[0]
+            for k in np.flatnonzero((np.broadcast_to(values, shares.shape) <= 0)[1:])[:1]:
+                low, high = shares[k], shares[k + 1]
+                for _ in range(50):
+                    middle = (low + high) / 2
+                    low, high = (middle, high) if _roughly(c, start + away * middle)[0] > 0 else (low, middle)
+                zeros.append((high, i, _is_nearly_in(scene, start + away * high)))
+        rays.append(sorted(zeros))
+        met |= {next((i for _, i, is_taken in rays[-1] if is_taken), -1)}
+    first = (next((is_taken for _, i, is_taken in zeros if i in met), True) for zeros in rays)
+    return tuple(listed[i] for i in sorted(met - {-1})) if all(first) else ()
+
+
+def _roughly(condition: Constraint, place: Any) -> tuple[Any, Any]:
+    """The value at points, and the sum of the sizes of the terms."""
+    terms = [float(x) * place[0] ** i * place[1] ** j * place[2] ** k for (i, j, k), x in condition.terms]
+    return sum(terms), sum(map(abs, terms))
+
+
+def _is_nearly_in(scene: Scene, place: Any) -> bool:
+    """Whether a point is in the way, or nearly."""
+
+    def holds(condition: Constraint) -> bool:
+        value, size = _roughly(condition, place)
+        return bool(value >= -NEARLY * size)
+
+    return any(all(map(holds, piece)) for body in scene.bodies for piece in body.pieces) or not all(
+        holds(c) for part in scene.domain for piece in part.pieces for c in piece
+    )
 
 
 # --- where formulas touch ------------------------------------------------------------------------------

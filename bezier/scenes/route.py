@@ -9,9 +9,10 @@ none that is in no wall is in both, no path within what is free leads from start
 an interval, which is connected; its parts in U and in V are closed in it, disjoint, together all of it, and neither is
 empty. All of this but where start and goal are is said in sentences, proved by the engine and checked by the kernel.
 
-BLOCKED, where formulas touch or are curves: polynomials of them, up to signs, all positive at one of start and goal and
-one negative at the other. THEOREM. Where all zeros of the least of them in the workspace are in the way, no path is
-free. PROOF. Along one the least is continuous, and would have a zero in between.
+BLOCKED, where formulas are curves or surfaces: polynomials of them, up to signs, all positive at one of start and goal
+and one negative at the other. THEOREM. Where all zeros of the least of them in the workspace are in the way, no path is
+free. PROOF. Along one the least is continuous, and would have a zero in between. That is a zero of one of them where
+no other is negative: a sentence for each.
 """
 
 from __future__ import annotations
@@ -19,7 +20,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
-from itertools import combinations, islice, pairwise
+from itertools import islice, pairwise
 from math import ceil
 
 import qe
@@ -32,22 +33,22 @@ from bezier.obstacles.survey import clearance_certificate, meeting
 from bezier.scenes.barrier import Wall, barrier, longer
 from bezier.scenes.bound import LengthBound, least_length
 from bezier.scenes.cells import Cell, FreeCells, Point, points_along
-from bezier.scenes.region import decomposed
+from bezier.scenes.region import decomposed, seen_from
 from bezier.scenes.scene import Scene
 from bezier.scenes.sentences import Curve, cell_of, coordinates, covering, every, in_the_way, of_sides, surfaces, taken
 from bezier.scenes.shortest import chains
 from bezier.scenes.solid import Solid, directions, in_space
 from qe import arguments
-from qe.errors import BudgetExceeded, CertificateRejected, InputError, Unable
-from qe.formula.build import conj, disj, neg
-from qe.formula.syntax import FALSE, Formula
+from qe.errors import CertificateRejected, InputError, Unable
+from qe.formula.build import atom, conj, disj, neg
+from qe.formula.syntax import FALSE, Formula, Relation
 from qe.options import Budget
 from qe.proof.certificate import Certificate
 
 CURVE, MOST_POINTS = "curve", 6
 """How labels about curves begin; control points of one."""
-DIVIDED, DIVIDING = "the zeros of a polynomial are in the way", 5.0
-"""What is said of a divider; seconds in which one of so many polynomials has to be proved."""
+DIVIDED, DIVIDING = "where the polynomial is zero, and no other one negative, is in the way", 5.0
+"""What is said of a divider; seconds in which it has to be proved."""
 DISJOINT = "none beside the walls is on both sides"
 PLANE_STEPS, SPACE_STEPS, MOST_WAYS = (1, 2, 3), (0, 1, 2, 3), 64
 """How fine the polytopes around round bodies are, one after the other: see ``directions``."""
@@ -176,10 +177,11 @@ class Blocked:
         """What is proved of the walls and the two sides."""
         at = coordinates(self.scene)
         if self.divider:
-            above, weak = ([replace(c, strict=strict) for c in self.divider] for strict in (True, False))
-            below, taken_at = (c.negated.formula(at) for c in weak), taken(self.scene, self.scene.bodies, at, 1)
-            zeros = every(at, disj((conj(c.formula(at) for c in above), *below, taken_at)))
-            return {DIVIDED: zeros} | dict(surfaces(self.scene))
+            said, taken_at = dict[str, Formula](), taken(self.scene, self.scene.bodies, at, 1)
+            for k, c in enumerate(self.divider, start=1):
+                beyond = (replace(other, strict=False).negated.formula(at) for other in self.divider if other != c)
+                said[f"{DIVIDED} ({k})"] = every(at, disj((neg(atom(c.poly(at), Relation.EQ)), *beyond, taken_at)))
+            return said | dict(surfaces(self.scene))
         walls = (cell_of(wall) for wall in self.walls)
         both = conj(disj(of_sides(cell.sides, at) for cell in side) for side in (self.start_side, self.goal_side))
         apart = every(at, disj((neg(both), *(of_sides(cell.sides, at) for cell in walls))))
@@ -251,7 +253,7 @@ def decided(scene: Scene, budget: Budget, *, proof: bool = True, wish: Wish | No
         why = scene.blocked_at(point)
         if why is not None:
             return Blocked(scene, Cell.box(scene.low, scene.high), (), (), (), f"the {name} is {why}", None)
-    known = _divided(scene, budget, 1) or _by_cells(scene, budget)
+    known = _divided(scene, budget) or (_in_plane if scene.dimension == 2 else _in_space)(scene, budget)
     known, proofs = _shortest(known, wish, budget) if wish is not None and isinstance(known, Route) else (known, [])
     if not proof:
         return known
@@ -301,32 +303,22 @@ def _divides(conditions: Sequence[Constraint], scene: Scene) -> bool:
     return min(ends) < 0 < max(ends)
 
 
-def _divided(scene: Scene, budget: Budget, count: int) -> Blocked | None:
-    """By so many polynomials of the formulas, where the engine soon proves it."""
-    around, listed = Cell.box(scene.low, scene.high), dict[Constraint, None]()
-    for c in scene.conditions:
-        listed |= dict.fromkeys(replace(c, terms=same.terms, strict=False) for same in (c, c.negated)[:count])
-    limit = Budget(DIVIDING)
-    for chosen in combinations(listed, count):
-        if _divides(chosen, scene) and (remaining := limit.remaining() or 0) > 0:
+def _divided(scene: Scene, budget: Budget) -> Blocked | None:
+    """By the polynomials that are seen from start or goal, where the engine soon proves it."""
+    for point in (scene.start, scene.goal) if scene.formulas else ():
+        chosen, limit = seen_from(scene, point), Budget(DIVIDING)
+        if chosen and _divides(chosen, scene):
             budget.check("sides of formulas")
-            reason = "a curve or surface of a formula separates start and goal"
+            around, reason = Cell.box(scene.low, scene.high), "curves or surfaces of formulas separate start and goal"
             known = Blocked(scene, around, (), (), (), reason, None, chosen)
-            if qe.eliminate(known.sentences[DIVIDED], timeout=remaining, process=False).truth:
+            if all(_is_true(said, limit) for said in known.sentences.values()):
                 return known
     return None
 
 
-def _by_cells(scene: Scene, budget: Budget) -> Route | Blocked:
-    try:
-        return (_in_plane if scene.dimension == 2 else _in_space)(scene, budget)
-    except BudgetExceeded:
-        raise
-    except Unable:
-        known = next((known for count in range(2, 7) if (known := _divided(scene, budget, count)) is not None), None)
-        if known is None:
-            raise
-        return known
+def _is_true(said: Formula, limit: Budget) -> bool:
+    remaining = limit.remaining() or 0
+    return remaining > 0 and qe.eliminate(said, timeout=remaining, process=False).truth is True
 
 
 def _in_plane(scene: Scene, budget: Budget) -> Route | Blocked:

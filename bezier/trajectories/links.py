@@ -15,7 +15,7 @@ import re
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
-from functools import cached_property
+from functools import cached_property, partial
 from itertools import pairwise, product
 from typing import Any
 
@@ -30,18 +30,15 @@ from bezier.obstacles.obstacle import half_space, pieces_of
 from bezier.obstacles.polyhedron import Point, nearest
 from bezier.trajectories.piecewise import Trajectory
 from bezier.trajectories.sheets import Conditions, Rectangle, Sheet, cover
-from qe.errors import CertificateRejected, Unable
+from qe.errors import CertificateRejected
 from qe.formula.syntax import FALSE, TRUE
 from qe.proof.certificate import Certificate
 
 NEAR = Fraction(1, 1 << 20)
 """How far (mm) the origins of frames may be from the polynomials that stand for them."""
-SHORTEST = Fraction(1, 1 << 60)
-"""Of an interval, as a part of a piece."""
 FINE, DIGITS, BITS = 1 << 44, (10, 30, 60), 96
 """Denominator of places and shares that are tried; binary digits of normals, in turn; those of roots."""
-ZERO, ONE, HALF = Fraction(0), Fraction(1), Fraction(1, 2)
-PART = r"link (\S+), (\S+), piece (\S+) from (\S+) to (\S+), share (\S+) to (\S+): (.*)"
+ZERO, ONE = Fraction(0), Fraction(1)
 Pair = tuple[int, int]
 """The number of a link, which is that of the frame at its end, and of a body."""
 
@@ -85,15 +82,17 @@ class Links:
 
     def _followed(self, k: int, i: int) -> Iterator[Rectangle | Touch]:
         """Rectangles on which a link is clear of a body, up to where it meets that. Raises ``Unable``."""
-        body, normal = self.bodies[i][1], tuple[Fraction, ...]()
+        body = self.bodies[i][1]
         for piece in range(len(self.frames[k].pieces)):
             sheet = self.sheets[k, piece]
-            found = sheet.followed(body, piece) if isinstance(body, tuple) else _parted(sheet, body, piece, normal)
-            for step in found:
+            if isinstance(body, tuple):
+                judge, touched = partial(sheet.judged, body), partial(sheet.touched, body)
+            else:
+                judge, touched = partial(_parted, sheet, body), partial(_met, sheet, body)
+            for step in sheet.followed(piece, judge, touched):
                 if not isinstance(step, Rectangle):
                     yield Touch(piece, *step)
                     return
-                normal = step.normal
                 yield step
 
     @cached_property
@@ -204,27 +203,17 @@ def _moves(arm: Arm, start: int, end: int) -> bool:
     return (slides or any(row.a or row.d for row in rows)) and not (is_fixed(arm, start) and is_fixed(arm, end))
 
 
-def _parted(sheet: Sheet, body: Body, piece: int, normal: Point) -> Iterator[Rectangle | tuple[Fraction, Fraction]]:
-    """Intervals on which half-spaces part a link and a body, the one with this normal first, up to where they meet: a
-    time and a share. Raises ``Unable``."""
-    todo = [(ZERO, ONE)]
-    while todo:
-        low, high = todo.pop()
-        points = sheet.corners(Rectangle(piece, low, high))
-        if not _is_beyond(body, normal, points):  # the last one often is
-            proposed = _normals(body, *(end.point((low + high) / 2) for end in sheet.ends))
-            normal = next((n for n in proposed if _is_beyond(body, n, points)), ())
-        if normal:
-            yield Rectangle(piece, low, high, normal=normal)
-            continue
-        share, away = _connection(body, *(end.point(low) for end in sheet.ends))
-        if dot(away, away) <= (body.radius + 4 * NEAR) ** 2:
-            yield low, share
-            return
-        if high - low < SHORTEST:
-            raise Unable("a link and an obstacle: neither apart nor together")
-        middle = (low + high) / 2
-        todo += [(middle, high), (low, middle)]
+def _parted(sheet: Sheet, body: Body, part: Rectangle) -> Rectangle | bool:
+    """With the normal of a half-space that parts the link and a body on an interval, if there is one."""
+    points, middle = sheet.corners(part), (part.low + part.high) / 2
+    proposed = _normals(body, *(end.point(middle) for end in sheet.ends))
+    return next((replace(part, normal=n) for n in proposed if _is_beyond(body, n, points)), False)
+
+
+def _met(sheet: Sheet, body: Body, t: Fraction, shares: Sequence[Fraction]) -> Fraction | None:
+    """Where the link is as good as in a body."""
+    share, away = _connection(body, *(end.point(t) for end in sheet.ends))
+    return share if dot(away, away) <= (body.radius + 4 * NEAR) ** 2 else None
 
 
 def _normals(body: Body, a: Vector, b: Vector) -> Iterator[Point]:
@@ -266,5 +255,5 @@ def _level(body: Body, normal: Point) -> Fraction | None:
 
 def _is_beyond(body: Body, normal: Point, points: Sequence[Vector]) -> bool:
     """Whether points are beyond the half-space, with what the origins may be off to spare."""
-    level = _level(body, normal) if normal else None
+    level = _level(body, normal)
     return level is not None and all(dot(normal, p) > level + 2 * NEAR * sum(map(abs, normal)) for p in points)

@@ -13,7 +13,7 @@ theorem).
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import cached_property
@@ -44,6 +44,7 @@ nearby."""
 ZERO, ONE = Fraction(0), Fraction(1)
 Conditions = tuple[tuple[Constraint, ...], ...]
 """A union of intersections."""
+Touched = Callable[[Fraction, Sequence[Fraction]], Fraction | None]
 
 
 @dataclass(frozen=True, slots=True, order=True)
@@ -71,11 +72,6 @@ class Sheet:
         pairs = zip(*(end.points for end in self._alike), strict=True)
         return Bezier(tuple(tuple(x + share * (y - x) for x, y in zip(a, b, strict=True)) for a, b in pairs))
 
-    def touched(self, conditions: Conditions, t: Fraction, share: Fraction) -> bool:
-        """Whether a point is in the set, up to twice what ``near`` changes."""
-        at = self.through(share).point(t)
-        return any(all(c.value(at) >= 0 for c in piece) for piece in self.around(conditions, (at,), 2))
-
     def beside(self, conditions: Conditions, part: Rectangle) -> Conditions:
         """The set made wider: for the points of a rectangle."""
         return self.around(conditions, self.corners(part))
@@ -92,39 +88,51 @@ class Sheet:
         return Constraint.of(terms_sum(dict(c.terms), {(0, 0, 0): times * dyadic_above(self.near * change)}))
 
     # --- search -----------------------------------------------------------------------------------------------
-    def followed(self, conditions: Conditions, piece: int) -> Iterator[Rectangle | tuple[Fraction, Fraction]]:
+    def followed(
+        self, piece: int, judge: Callable[[Rectangle], Rectangle | bool], touched: Touched
+    ) -> Iterator[Rectangle | tuple[Fraction, Fraction]]:
         """Rectangles that cover [0, 1] x [0, 1], or that up to a t, and this with a share where the set is touched.
-        Raises ``Unable``."""
+        ``judge``: the rectangle with what shows that it is clear; or else whether its shares are to be halved, not the
+        interval of t. ``touched``: at a t, one of some shares, if it is. Raises ``Unable``."""
         todo, count = [(ZERO, ONE, [(ZERO, ONE)])], 0
         while todo:
             low, high, waiting = todo.pop()
             still = list[tuple[Fraction, Fraction]]()
             while waiting:
-                first, last = waiting.pop()
-                part, count = Rectangle(piece, low, high, first, last), count + 1
-                seen = self._seen(self.beside(conditions, part), part)
-                ends_clear = all(any(row[end] for row in piece) for piece in seen for end in (0, 1))
-                if all(any(everywhere for _, _, everywhere in piece) for piece in seen):
-                    yield part
-                elif ends_clear or last - first > LONGER * (high - low):
-                    middle = (first + last) / 2
-                    waiting += [(middle, last), (first, middle)]
+                (first, last), count = waiting.pop(), count + 1
+                found = judge(Rectangle(piece, low, high, first, last))
+                if isinstance(found, Rectangle):
+                    yield found
+                elif found:
+                    waiting += [((first + last) / 2, last), (first, (first + last) / 2)]
                 else:
                     still.append((first, last))
-            if not still:
-                continue
-            for share in sorted({share for ends in still for share in ends}):
-                if self.touched(conditions, low, share):
-                    yield low, share
-                    return
-            if count > MOST or high - low < SHORTEST:
-                raise Unable("undecided: a link and a formula come too close for that many rectangles")
+            if still and (share := touched(low, sorted({share for ends in still for share in ends}))) is not None:
+                yield low, share
+                return
+            if still and (count > MOST or high - low < SHORTEST):
+                raise Unable("undecided: a link comes so close to an obstacle that small parts do not tell")
             middle = (low + high) / 2
-            todo += [(middle, high, still[:]), (low, middle, still)]
+            todo += [(middle, high, still[:]), (low, middle, still)] if still else []
+
+    def judged(self, conditions: Conditions, part: Rectangle) -> Rectangle | bool:
+        """By the signs of coefficients; shares are halved where both ends are clear, or the rest is short."""
+        seen = self._seen(self.beside(conditions, part), part)
+        if all(any(everywhere for _, _, everywhere in piece) for piece in seen):
+            return part
+        is_short = part.last - part.first > LONGER * (part.high - part.low)
+        return is_short or all(any(row[end] for row in piece) for piece in seen for end in (0, 1))
+
+    def touched(self, conditions: Conditions, t: Fraction, shares: Iterable[Fraction]) -> Fraction | None:
+        """The first of the shares at which a point is in the set, up to twice what ``near`` changes."""
+        for share in shares:
+            at = self.through(share).point(t)
+            if any(all(c.value(at) >= 0 for c in piece) for piece in self.around(conditions, (at,), 2)):
+                return share
+        return None
 
     def _seen(self, conditions: Conditions, part: Rectangle) -> list[list[tuple[bool, bool, bool]]]:
-        """Whether a condition fails at the first share, at the last, and everywhere on a rectangle, by the signs of
-        coefficients."""
+        """Whether a condition fails at the first share, at the last, and everywhere on a rectangle."""
         return [[self._fails(c, part) for c in piece] for piece in conditions]
 
     def _fails(self, condition: Constraint, part: Rectangle) -> tuple[bool, bool, bool]:
