@@ -117,7 +117,7 @@ def seen_from(scene: Scene, point: Point) -> tuple[Constraint, ...]:
     listed = [c for c in signed if c.value((*point, ZERO)[:3]) > 0]
     wide = float(sum(b - a for a, b in zip(scene.low, scene.high, strict=True)))
     start, shares = np.array([*map(float, point), 0.0][:3]), np.linspace(0.0, 1.0, STEPS)
-    met, rays = set[int](), list[list[tuple[float, int, bool]]]()
+    hit, rays = set[int](), list[list[tuple[float, int, bool]]]()
     for ray in directions(scene.dimension, 4 if scene.dimension == 2 else 3):
         unit = np.array([*map(float, ray), 0.0][:3])
         away, zeros = wide * unit / np.linalg.norm(unit), list[tuple[float, int, bool]]()
@@ -130,9 +130,9 @@ def seen_from(scene: Scene, point: Point) -> tuple[Constraint, ...]:
                     low, high = (middle, high) if _roughly(c, start + away * middle)[0] > 0 else (low, middle)
                 zeros.append((high, i, _is_nearly_in(scene, start + away * high)))
         rays.append(sorted(zeros))
-        met |= {next((i for _, i, is_taken in rays[-1] if is_taken), -1)}
-    first = (next((is_taken for _, i, is_taken in zeros if i in met), True) for zeros in rays)
-    return tuple(listed[i] for i in sorted(met - {-1})) if all(first) else ()
+        hit |= {next((i for _, i, is_taken in rays[-1] if is_taken), -1)}
+    first = (next((is_taken for _, i, is_taken in zeros if i in hit), True) for zeros in rays)
+    return tuple(listed[i] for i in sorted(hit - {-1})) if all(first) else ()
 
 
 def _roughly(condition: Constraint, place: Any) -> tuple[Any, Any]:
@@ -237,11 +237,11 @@ def _between(scene: Scene, free: Sequence[Cell], mixed: Sequence[Sequence[Cell]]
     graph = FreeCells.linked((*free, *(cell for cells in mixed for cell in cells)), walls)
     start, goal, split = graph.holding(scene.start), graph.holding(scene.goal), set[int]()
     while start is not None and goal is not None and goal in (before := graph.reached(start, owners)):
-        met = {i for i in graph.way(before, goal) if i in owners}
-        if not met:
+        hit = {i for i in graph.way(before, goal) if i in owners}
+        if not hit:
             return set()
-        split |= {owners[i] for i in met}
-        gone = met - {start, goal}
+        split |= {owners[i] for i in hit}
+        gone = hit - {start, goal}
         if not gone:
             break
         graph = replace(graph, doors=tuple({j: d for j, d in doors.items() if j not in gone} for doors in graph.doors))

@@ -88,7 +88,7 @@ class Links:
             if isinstance(body, tuple):
                 judge, touched = partial(sheet.judged, body), partial(sheet.touched, body)
             else:
-                judge, touched = partial(_parted, sheet, body), partial(_met, sheet, body)
+                judge, touched = partial(_parted, sheet, body), partial(_touched, sheet, body)
             for step in sheet.followed(piece, judge, touched):
                 if not isinstance(step, Rectangle):
                     yield Touch(piece, *step)
@@ -120,7 +120,7 @@ class Links:
                     raise CertificateRejected(label, "no half-space with this normal holds the body")
                 held = body if isinstance(body, tuple) else ((half_space(part.normal, level or ZERO),),)
                 sheet = self.sheets[k, part.piece]
-                yield label, sheet, sheet.beside(held, part), part
+                yield label, sheet, sheet.widened(held, part), part
 
     def _touching(self) -> Iterator[tuple[str, CurveSentence, Fraction]]:
         """That links meet bodies, each at a time."""
@@ -176,13 +176,13 @@ class Links:
     @property
     def lines(self) -> list[str]:
         """What is proved."""
-        met, said = sorted(self.touches, key=self.time), "links, the segments between origins of frames:"
+        contacts, said = sorted(self.touches, key=self.time), "links, the segments between origins of frames:"
         result, pairs = list[str](), [pair for pair in self.spans if pair[1] < self.obstacles]
-        if self.obstacles < len(self.bodies) and all(i < self.obstacles for _, i in met):
+        if self.obstacles < len(self.bodies) and all(i < self.obstacles for _, i in contacts):
             result.append(f"{said} inside the domain for all t")
-        if pairs and all(i >= self.obstacles for _, i in met):
+        if pairs and all(i >= self.obstacles for _, i in contacts):
             result.append(f"{said} clear of all obstacles, {len(pairs)} pairs")
-        for pair in met:
+        for pair in contacts:
             touch = self.touches[pair]
             point = self.sheets[pair[0], touch.piece].through(touch.share).point(touch.t)
             place, name = ", ".join(f"{float(c):.6g}" for c in point), self.bodies[pair[1]][0]
@@ -210,7 +210,7 @@ def _parted(sheet: Sheet, body: Body, part: Rectangle) -> Rectangle | bool:
     return next((replace(part, normal=n) for n in proposed if _is_beyond(body, n, points)), False)
 
 
-def _met(sheet: Sheet, body: Body, t: Fraction, shares: Sequence[Fraction]) -> Fraction | None:
+def _touched(sheet: Sheet, body: Body, t: Fraction, shares: Sequence[Fraction]) -> Fraction | None:
     """Where the link is as good as in a body."""
     share, away = _connection(body, *(end.point(t) for end in sheet.ends))
     return share if dot(away, away) <= (body.radius + 4 * NEAR) ** 2 else None

@@ -72,7 +72,7 @@ class Sheet:
         pairs = zip(*(end.points for end in self._alike), strict=True)
         return Bezier(tuple(tuple(x + share * (y - x) for x, y in zip(a, b, strict=True)) for a, b in pairs))
 
-    def beside(self, conditions: Conditions, part: Rectangle) -> Conditions:
+    def widened(self, conditions: Conditions, part: Rectangle) -> Conditions:
         """The set made wider: for the points of a rectangle."""
         return self.around(conditions, self.corners(part))
 
@@ -117,7 +117,7 @@ class Sheet:
 
     def judged(self, conditions: Conditions, part: Rectangle) -> Rectangle | bool:
         """By the signs of coefficients; shares are halved where both ends are clear, or the rest is short."""
-        seen = self._seen(self.beside(conditions, part), part)
+        seen = self._seen(self.widened(conditions, part), part)
         if all(any(everywhere for _, _, everywhere in piece) for piece in seen):
             return part
         is_short = part.last - part.first > LONGER * (part.high - part.low)
