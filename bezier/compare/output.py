@@ -13,7 +13,7 @@ from bezier.methods.cubic.existence import trivial_witness
 from bezier.planner.outputs import summary
 from bezier.planner.words import why_not
 from bezier.problem import PlanMethod
-from bezier.report.first import RESULTS
+from bezier.report.first import RESULTS, duration
 
 TITLES = {PlanMethod.QUADRATIC: "quadratic, formula (8)", PlanMethod.CUBIC: "cubic, formula (7)"}
 DIGITS = 8
@@ -104,11 +104,6 @@ def bracket(enclosure: Enclosure | None, digits: int = DIGITS) -> str:
         if enclosure.low == enclosure.high and float(ends["low"]) == enclosure.low
         else f"[{ends['low']}, {ends['high']}]"
     )
-
-
-def duration(seconds: float) -> str:
-    """Seconds or milliseconds."""
-    return f"{seconds * 1e3:.1f} ms" if seconds < 1 else f"{seconds:.2f} s"
 
 
 # --- the terminal -----------------------------------------------------------------------------------------

@@ -282,13 +282,7 @@ def _rows(table: Table, key: str, size: int, what: str) -> list[Point]:
         raise table.error(key, what, describe(raw))
     if len(raw) > MAX_PARTS:
         raise table.error(key, f"at most {MAX_PARTS} entries", str(len(raw)))
-    result = []
-    for i, row in enumerate(raw):
-        try:
-            result.append(tuple(read(entry) for entry in row))
-        except NotANumber as error:
-            raise table.error(f"{key}[{i}]", f"{size} exact numbers", str(error)) from None
-    return result
+    return [table.as_point(f"{key}[{i}]", row, size) for i, row in enumerate(raw)]
 
 
 Reader = Callable[[Table, Fraction], Body] | None

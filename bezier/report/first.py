@@ -103,7 +103,7 @@ def _curvature(worst: Enclosure | None) -> Card:
 
 def duration(seconds: float) -> str:
     """Seconds or milliseconds."""
-    return f"{seconds * 1e3:.0f} ms" if seconds < 1 else f"{seconds:.2f} s"
+    return f"{seconds * 1e3:.1f} ms" if seconds < 1 else f"{seconds:.2f} s"
 
 
 # --- the scene --------------------------------------------------------------------------------------------

@@ -17,7 +17,17 @@ from math import ceil
 from typing import Any
 
 import qe
-from bezier.curves.scalar import UNITS, dot, ends_of, terms_about, terms_between
+from bezier.curves.scalar import (
+    UNITS,
+    Terms,
+    dot,
+    ends_of,
+    terms_about,
+    terms_between,
+    terms_product,
+    terms_scaled,
+    terms_sum,
+)
 from bezier.obstacles.obstacle import Constraint
 from bezier.scenes.barrier import Wall
 from bezier.scenes.cells import Cell, FreeCells, Point, Side
@@ -32,6 +42,8 @@ from qe.exact.ring import Poly
 from qe.formula.syntax import Atom
 from qe.options import Budget
 
+WAYS = (1, 0), (0, 1), (1, 1), (1, -1), (2, 1), (1, 2), (2, -1), (1, -2)
+"""Across lines through places where formulas touch."""
 TURNS = 16384
 """Of entries of normals that are rounded, the largest."""
 STEPS, NEARLY = 401, 1e-9
@@ -166,6 +178,18 @@ def bridges_of(scene: Scene, budget: Budget) -> Iterator[Wall]:
                 yield from (Wall(point, end, (i,)) for end in _into(body, point, wide))
         elif place[0].field.degree == 2:
             yield from _across(scene, place, wide)
+
+
+def lines_through(scene: Scene, budget: Budget) -> Iterator[Constraint]:
+    """Polynomials with rational coefficients that are zero on a line through an irrational place where formulas touch,
+    and on parallel ones."""
+    for place in _touching(scene, budget):
+        for way in () if all(value.is_rational for value in place) else WAYS:
+            level, total, power = place[0] * way[0] + place[1] * way[1], Terms(), Terms({(0, 0, 0): Fraction(1)})
+            for c in level.minimal_polynomial:
+                total = terms_sum(total, terms_scaled(c, power))
+                power = terms_product(power, {(1, 0, 0): Fraction(way[0]), (0, 1, 0): Fraction(way[1])})
+            yield Constraint.of(total)
 
 
 def _touching(scene: Scene, budget: Budget) -> Iterator[tuple[FieldElement, ...]]:

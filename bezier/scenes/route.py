@@ -17,10 +17,10 @@ no other is negative: a sentence for each.
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
-from itertools import islice, pairwise
+from itertools import islice, pairwise, product
 from math import ceil
 
 import qe
@@ -33,13 +33,13 @@ from bezier.obstacles.survey import clearance_certificate, meeting
 from bezier.scenes.barrier import Wall, barrier, longer
 from bezier.scenes.bound import LengthBound, least_length
 from bezier.scenes.cells import Cell, FreeCells, Point, points_along
-from bezier.scenes.region import decomposed, seen_from
+from bezier.scenes.region import decomposed, lines_through, seen_from
 from bezier.scenes.scene import Scene
 from bezier.scenes.sentences import Curve, cell_of, coordinates, covering, every, in_the_way, of_sides, surfaces, taken
 from bezier.scenes.shortest import chains
 from bezier.scenes.solid import Solid, directions, in_space
 from qe import arguments
-from qe.errors import CertificateRejected, InputError, Unable
+from qe.errors import BudgetExceeded, CertificateRejected, InputError, Unable
 from qe.formula.build import atom, conj, disj, neg
 from qe.formula.syntax import FALSE, Formula, Relation
 from qe.options import Budget
@@ -253,7 +253,7 @@ def decided(scene: Scene, budget: Budget, *, proof: bool = True, wish: Wish | No
         why = scene.blocked_at(point)
         if why is not None:
             return Blocked(scene, Cell.box(scene.low, scene.high), (), (), (), f"the {name} is {why}", None)
-    known = _divided(scene, budget) or (_in_plane if scene.dimension == 2 else _in_space)(scene, budget)
+    known = _divided(scene, budget) or _by_cells(scene, budget)
     known, proofs = _shortest(known, wish, budget) if wish is not None and isinstance(known, Route) else (known, [])
     if not proof:
         return known
@@ -303,10 +303,14 @@ def _divides(conditions: Sequence[Constraint], scene: Scene) -> bool:
     return min(ends) < 0 < max(ends)
 
 
-def _divided(scene: Scene, budget: Budget) -> Blocked | None:
-    """By the polynomials that are seen from start or goal, where the engine soon proves it."""
-    for point in (scene.start, scene.goal) if scene.formulas else ():
-        chosen, limit = seen_from(scene, point), Budget(DIVIDING)
+def _divided(scene: Scene, budget: Budget, lines: Iterable[Constraint | None] = (None,)) -> Blocked | None:
+    """By the polynomials that are seen from start or goal, with one of the lines, where the engine soon proves it."""
+    ends = (scene.start, scene.goal) if scene.formulas else ()
+    seen = [seen_from(scene, point) for point in ends]
+    for line, (point, listed) in product(lines, zip(ends, seen, strict=True)):
+        sides = [] if line is None else [replace(c, strict=False) for c in (line, line.negated)]
+        chosen = (*listed, *(c for c in sides if c.value((*point, 0)[:3]) > 0))
+        limit = Budget(DIVIDING)
         if chosen and _divides(chosen, scene):
             budget.check("sides of formulas")
             around, reason = Cell.box(scene.low, scene.high), "curves or surfaces of formulas separate start and goal"
@@ -314,6 +318,18 @@ def _divided(scene: Scene, budget: Budget) -> Blocked | None:
             if all(_is_true(said, limit) for said in known.sentences.values()):
                 return known
     return None
+
+
+def _by_cells(scene: Scene, budget: Budget) -> Route | Blocked:
+    try:
+        return (_in_plane if scene.dimension == 2 else _in_space)(scene, budget)
+    except BudgetExceeded:
+        raise
+    except Unable:
+        known = _divided(scene, budget, lines_through(scene, budget)) if scene.dimension == 2 else None
+        if known is None:
+            raise
+        return known
 
 
 def _is_true(said: Formula, limit: Budget) -> bool:

@@ -61,12 +61,11 @@ def _pairs(table: Table, raw: object, axes: int) -> list[tuple[Fraction, Fractio
     listed = raw if isinstance(raw, list) and raw and isinstance(raw[0], list) else [raw] * axes
     if len(listed) != axes or not all(isinstance(pair, list) and len(pair) == 2 for pair in listed):
         raise table.error("position", f"a pair, or a pair for each of {axes} axes", describe(raw))
-    parts = replace(table, values={f"position[{k}][{i}]": v for k, p in enumerate(listed) for i, v in enumerate(p)})
-    pairs = [(parts.number(f"position[{k}][0]"), parts.number(f"position[{k}][1]")) for k in range(axes)]
+    pairs = [table.as_point(f"position[{k}]", pair, 2) for k, pair in enumerate(listed)]
     for low, high in pairs:
         if low > high:
             raise table.error("position", "the lower limit first", f"{low} before {high}")
-    return pairs
+    return [(low, high) for low, high in pairs]
 
 
 def scene_of(table: Table, moving: Trajectory) -> Scene:

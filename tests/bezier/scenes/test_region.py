@@ -205,6 +205,20 @@ def test_a_wall_or_a_divider_that_is_not_in_the_way_has_no_proof() -> None:
                 other.check()
 
 
+@each(("y <= 5", True), ("y <= 4.999", False))
+def test_a_touch_at_the_root_of_a_cubic_is_no_passage(below: str, blocked: bool) -> None:
+    """It was undecided: no wall with rational ends goes through it."""
+    listed = [formula("y >= (x^3 - 30*x - 20)^2/400 + 5"), formula(below)]
+    found = decided(read_scene({**SCENE, "start": [1, "51/10"], "goal": [9, "51/10"], "obstacle": listed}), Budget(60))
+    found.check()
+    assert found.blocked is blocked
+    assert not isinstance(found, Blocked) or max(c.degree for c in found.divider) == 6
+    if isinstance(found, Blocked):
+        other = replace(found, divider=tuple(c for c in found.divider if c.degree != 3))
+        with pytest.raises((qe.CertificateRejected, qe.Unable)):
+            other.check()
+
+
 def test_what_touches_at_a_place_without_a_rational_line_is_undecided(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr("bezier.scenes.region.SMALLEST", Fraction(1, 64))
     listed = [formula("y >= ((x-3)^2 - 2)^2 + 5"), formula("y <= 5 & x <= 6"), formula("x = 6 & y <= 7")]
