@@ -17,6 +17,7 @@ from collections.abc import Iterator, Sequence
 from dataclasses import replace
 from fractions import Fraction
 from itertools import pairwise
+from math import comb
 from typing import Any
 
 from bezier.chains import proof, proposals
@@ -257,12 +258,15 @@ def _bends(points: Any, t: Any) -> tuple[Any, Any]:
     """|v|³ and the area of v and a at these t, in the plane signed."""
     import numpy as np
 
-    from bezier.motion.track import casteljau
-
     d = len(points) - 1
-    v, a = (casteljau(np.diff(points, k, axis=0) * scale, t) for k, scale in ((1, d), (2, d * (d - 1))))
+    v, a = (_values(np.diff(points, k, axis=0) * scale, t) for k, scale in ((1, d), (2, d * (d - 1))))
     areas = v[:, 0] * a[:, 1] - v[:, 1] * a[:, 0] if points.shape[1] == 2 else np.linalg.norm(np.cross(v, a), axis=1)
     return np.linalg.norm(v, axis=1) ** 3, areas
+
+
+def _values(points: Any, t: Any) -> Any:
+    d = len(points) - 1
+    return sum(comb(d, k) * (t**k * (1 - t) ** (d - k))[:, None] * points[k] for k in range(d + 1))
 
 
 def _floats(solved: Solved, free: Sequence[Point]) -> list[Any]:

@@ -12,14 +12,14 @@ from typing import Any
 from markupsafe import Markup
 
 from bezier.compare.comparison import METHODS, Comparison, compare
-from bezier.compare.output import TITLES, Row, duration, notes, rows, step_rows, table, to_json
+from bezier.compare.output import TITLES, Row, notes, rows, step_rows, table, to_json
 from bezier.pictures.picture import Chart
 from bezier.planner import derivations
 from bezier.planner.outputs import COMPARED, COMPARISON, write_texts
 from bezier.plans import Clock
 from bezier.problem import Problem
 from bezier.report import html, parts
-from bezier.report.first import DRAWING, computed
+from bezier.report.first import DRAWING, computed, duration
 from bezier.report.html import Card, Page, Section, Text
 from bezier.report.page import PAPER
 from qe.processes.channel import Channel

@@ -17,7 +17,7 @@ import qe
 from bezier.compare import comparison, whole_curve
 from bezier.compare.command import render
 from bezier.compare.comparison import METHODS, Comparison, _Parts, compare, for_method
-from bezier.compare.output import NOT_REACHED, bracket, duration, notes, rows, table, to_json
+from bezier.compare.output import NOT_REACHED, bracket, notes, rows, table, to_json
 from bezier.compare.pictures import outline
 from bezier.compare.planar import Plane
 from bezier.curves.area import convex_area
@@ -30,6 +30,7 @@ from bezier.methods.quadratic import formula as quadratic
 from bezier.motion.motion import Quality
 from bezier.plans import Clock
 from bezier.problem import PlanMethod, Problem, read_problem
+from bezier.report.first import duration
 from qe.errors import BudgetExceeded, InputError, Unable
 from tests.bezier.made import stays
 from tests.tables import each
