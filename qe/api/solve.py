@@ -49,7 +49,7 @@ def solve(formula: AnyFormula, variables: Any = None, **settings: Unpack[ProvedQ
 
     ``variables``: those to solve for, in their order; they come after all others, so that each is expressed in terms of
     the parameters and of the variables before it. Without them x, y, z (perhaps with an index) are meant, with a note,
-    where there are others; otherwise all free variables, in the formula's order.
+    in this order; where there are none of them all free variables, in the formula's order.
     Quantifiers are eliminated first. With ``check`` the decomposition and the text are proved: ``guarantee``.
     Raises ``InputError`` for what cannot be read, ``Unable`` (``BudgetExceeded`` at a limit) where elimination does.
     """
@@ -67,10 +67,12 @@ def solve(formula: AnyFormula, variables: Any = None, **settings: Unpack[ProvedQ
 
 
 def _customary(names: tuple[str, ...]) -> tuple[str, ...] | None:
-    """The variables that a formula is solved for when nobody says: x, y and z where there are others; None for all."""
+    """The variables that a formula is solved for when nobody says: x, y and z, in this order; None for all."""
     variables = tuple(name for name in names if name not in NUMBERS)
     unknown = tuple(name for name in variables if re.fullmatch("[xyz]_?[0-9]*'*", name))
+    unknown = tuple(sorted(unknown, key=lambda name: (name[0], int(re.sub(r"\D", "", name) or 0), name)))
     if not unknown or len(unknown) == len(variables):
+        variables = unknown or variables
         return None if variables == names else variables
     warned([f"solved for {', '.join(unknown)}; variables= or --variables says otherwise"])
     return unknown

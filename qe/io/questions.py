@@ -61,7 +61,6 @@ _STOCK = (
     (rf"(.*?)both\s+(?:the\s+)?roots\s+of\s+(.+?)\s+are\s+({_SIGN})$", r"\1\2 has both \3 roots"),
     (r"(.*?)both\s+(?:the\s+)?roots\s+of\s+(.+?)\s+are\s+(.+)$", r"\1\2 has both roots \3"),
     (r"(.*?)\s+has\s+(?:all\s+(?:its\s+)?roots\s+real|only\s+real\s+roots)$", r"\1 has both roots"),
-    (r"(?=.*\b(?:meet|touch|intersect)\b)(.*=.*)\s+and\s+(.*=.*)\s+(meet|touch|intersect)\b", r"\1 \3s \2"),
     (rf"({_LIST}\s+are\s+[^,]+),\s+({_PROVE}\s)", r"let \1. \2"),
     (rf"({_PROVE}.*?)(?:,?\s+where|\.\s+(?:note:|here))\s+({_LIST}\s+(?:are|is)\s+.+)$", r"let \2. \1"),
 )
@@ -128,7 +127,7 @@ _CURVE = (
     r"(?:of\s+|with\s+equation\s+)?"
 )
 _MEETING = re.compile(
-    rf"(?=.*\b(?:meet|intersect|cut|touch|tangent))(?:is\s+)?{_CURVE}(.+?=.+?)\s+(?:is\s+)?(?:an?\s+)?(meets?|intersects?|cuts?|touch(?:es)?|tangent\s+to)\s+{_CURVE}(.+?=.+?)"
+    rf"(?=.*\b(?:meet|intersect|cut|touch|tangent))(?:is\s+)?{_CURVE}(.+?=.+?)\s+(?:is\s+)?(?:an?\s+(?=tangent))?(meets?|intersects?|cuts?|touch(?:es)?|tangent\s+to)\s+{_CURVE}(.+?=.+?)"
     rf"(?:\s+(?:at|in)\s+(no|only\s+one|{QUANTITY}|{'|'.join(COUNTS)})(?:\s+(?:distinct|different|real))*\s+points?)?"
 )
 _ALWAYS = re.compile(
@@ -212,7 +211,7 @@ def plainly(text: str) -> Question:
         formula = premise(rest)
     if formula is None and begins:
         formula = re.sub(r"\s*\bholds?$", "", rest)
-        formula = _closed(formula) if begins[1] else formula
+        formula = _closed(_claim(formula)) if begins[1] else formula
     return Question(text) if formula is None else Question(formula, names)
 
 
@@ -228,6 +227,7 @@ def _closed(claim: str, given: str = "") -> str:
 def _claim(text: str) -> str:
     """What is claimed, with a quantifier behind it in front."""
     text = re.sub(r"^\s*(?:that|the inequality)\s+", "", text)
+    text = re.sub(rf"\bfor\s+(?=(?:{_SIGN}|reals?)\s)", "for all ", text)
     return re.sub(r"(?s)^(.+?)\s+(for\s+(?:all|every|any)\b[^:]*)$", r"\2: \1", text)
 
 
@@ -348,7 +348,9 @@ def _counted(text: str, sought: tuple[str, ...]) -> str | None:
             said += [f"all {name}. {equation} -> {' and '.join(conditions)}"] if conditions else []
         return " and ".join(said)
     many = "at least two" if not many and re.search("distinct|different", kinds) else many
-    return f"{_many(many)} {name}. {' and '.join((equation, *conditions))}"
+    lead = _quadratic(equation, name) if re.match(r"(?:[Tt]he\s+)?quadratic\b", text) else ""
+    counting = f"{_many(many)} {name}. {' and '.join((equation, *conditions))}"
+    return f"{lead} and ({counting})" if lead else counting
 
 
 def _many(said: str) -> str:
@@ -381,7 +383,7 @@ def _solvable(text: str, sought: tuple[str, ...]) -> str | None:
 def _meeting(text: str, sought: tuple[str, ...]) -> str | None:
     """``the line y = f meets the curve g in two points``; None for another text. The line is tangent where the equation
     for x has a double root."""
-    meeting = _MEETING.fullmatch(text)
+    meeting = _MEETING.fullmatch(re.sub(r"^(.*=.*)\s+and\s+(.*=.*)\s+(meet|touch|intersect)\b", r"\1 \3s \2", text))
     if meeting is None:
         return None
     first, how, second, many = meeting.groups()

@@ -81,6 +81,12 @@ from qe.io.questions import plainly
         ("Find the range of the constant $k$ for which $y = kx$ meets the curve $y = x ^ { 2 } + 1$", "k^2 >= 4"),
         ("for which a does the line y = a meet the parabola y = x^2 at only one point?", "a = 0"),
         ("y = x^2 + k and y = 2x meet in two points", "k < 1"),
+        ("for which a do the parabola y = x^2 + a and the line y = x meet in two points?", "a < 1/4"),
+        ("y = x^2 + a meets y = x", "a <= 1/4"),  # not the article
+        ("the quadratic ax^2+bx+c has no real roots", "b^2 < 4*a*c"),
+        ("the quadratic equation x^2+bx+c=0 has no real roots", "b^2 < 4*c"),
+        ("Prove that (a+b+c)(1/a+1/b+1/c) >= 9 for positive a, b, c", "true"),
+        ("prove that x^2 - 2x + 1 >= 0 for real numbers x", "true"),
         ("x + y = k meets x - y = 1", "x + y = k meets x - y = 1"),
         (r"y = x + \e is tangent to y = x^2", r"y = x + \e is tangent to y = x^2"),
         ("for which m are x^2 + mx + 1 = 0 and x^2 + x + m = 0 both solvable?", "m <= -2"),
@@ -179,7 +185,7 @@ def test_optima(typed: str) -> None:
 def test_without_variables_the_usual_unknowns_are_meant() -> None:
     with pytest.warns(qe.DoubtfulInput, match="solved for x; variables="):
         assert str(qe.solve("x^2 = a")) == "a >= 0 and (x = -sqrt(a) or x = sqrt(a))"
-    assert qe.solve("a = b").order == ("a", "b") and qe.solve("y = x^2").order == ("y", "x")
+    assert qe.solve("a = b").order == ("a", "b") and qe.solve("y = x^2").order == ("x", "y")
     assert qe.solve("zeta = a").order == ("zeta", "a")  # which only begins with such a letter
 
 
