@@ -17,7 +17,7 @@ from typing import NamedTuple, TypeAlias
 
 from qe.exact.ring import Poly, Ring
 from qe.formula.build import atom, conj, disj, exists, forall, implies, map_children, neg
-from qe.formula.syntax import TRUE, Atom, Formula, Quantified, Relation
+from qe.formula.syntax import TRUE, Atom, Formula, Relation
 from qe.io import cases, terms
 from qe.io.cases import Case, Cases
 from qe.io.terms import Value
@@ -102,7 +102,7 @@ class Auxiliaries:
     def behind_name(self, value: Cases) -> Cases:
         def made(name: str) -> Auxiliary:
             s = cases.plain(terms.variable(self.ring, name))
-            meant = [self.settled(case, Relation.EQ, Place()) for case in cases.difference(s, value)]
+            meant = [self.free_of_names(cases.holds(case, Relation.EQ), Place()) for case in cases.difference(s, value)]
             return Auxiliary(name, disj(meant), self.defined(value, Place()))
 
         name = self.named(("cases", value), made)
@@ -161,14 +161,11 @@ class Auxiliaries:
     def compared(self, left: Cases, relation: Relation, right: Cases, place: Place) -> Formula:
         """``left relation right``, freed of auxiliary names."""
         few = self.few(left, right)
-        return disj([self.settled(case, relation, place) for case in cases.difference(*few)])
+        return disj([self.free_of_names(cases.holds(case, relation), place) for case in cases.difference(*few)])
 
     def defined(self, value: Cases, place: Place) -> Formula:
         """Where a term has a value."""
         return disj([self.free_of_names(conj(case.guards), place) for case in value])
-
-    def settled(self, case: Case, relation: Relation, place: Place) -> Formula:
-        return self.free_of_names(cases.holds(case, relation), place)
 
     def free_of_names(self, formula: Formula, place: Place) -> Formula:
         return settled(formula, {n: a for n, a in self.made.items() if a is not None}, place)
@@ -211,27 +208,19 @@ def settled(formula: Formula, values: Mapping[str, Auxiliary], place: Place) -> 
 
 def _substituted(formula: Formula, name: str, radicand: Poly) -> Formula:
     """The formula with the square root of ``radicand``, which is not negative, in the place of ``name``."""
-    match formula:
-        case Atom(poly, relation):
-            return _with_root(poly, relation, name, radicand)
-        case Quantified() if name not in formula.free:
-            return formula
-    return map_children(formula, lambda part: _substituted(part, name, radicand))
-
-
-def _with_root(poly: Poly, relation: Relation, name: str, radicand: Poly) -> Formula:
-    ring: Ring = poly.ring
-    index = ring.index[name]
-    if not poly.degree(index):
-        return atom(poly, relation)
+    if name not in formula.free:
+        return formula
+    if not isinstance(formula, Atom):
+        return map_children(formula, lambda part: _substituted(part, name, radicand))
+    poly, ring = formula.poly, formula.poly.ring
     a, b, even = ring.constant(0), ring.constant(0), ring.constant(1)
-    for k, coefficient in enumerate(poly.coefficients(index)):
+    for k, coefficient in enumerate(poly.coefficients(ring.index[name])):
         if k % 2:
             b = b + coefficient * even
             even = even * radicand
         else:
             a = a + coefficient * even
-    return _sign(a, b, a * a - b * b * radicand, relation)
+    return _sign(a, b, a * a - b * b * radicand, formula.relation)
 
 
 def _sign(a: Poly, b: Poly, norm: Poly, relation: Relation) -> Formula:

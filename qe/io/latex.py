@@ -26,7 +26,7 @@ _SAID = frozenset(("and", "or", "not", "implies", "iff", "if"))
 """Words that most write upright for a connective."""
 _MORE = {"^": r"\char94 ", "\\": r"\backslash ", "|": r"\vert ", " ": r"\ "}
 _ESCAPES = {"_": r"\_", "#": r"\#", "$": r"\$", "%": r"\%", "&": r"\&", "{": r"\{", "}": r"\}", "~": r"\sim ", **_MORE}
-_RELATIONS = {Relation.NE: r"\neq", Relation.LE: r"\leq", Relation.GE: r"\geq"}
+RELATIONS = {Relation.NE: r"\neq", Relation.LE: r"\leq", Relation.GE: r"\geq"}
 
 
 def read(text: str, *, source: str = "<text>") -> Formula:
@@ -98,7 +98,7 @@ def _root(variable: str, relation: Relation, poly: Poly, k: int) -> str:
 
 _NOTATION = Notation(
     name=name,
-    relation=lambda relation: _RELATIONS.get(relation, relation.value),
+    relation=lambda relation: RELATIONS.get(relation, relation.value),
     quantifier=_quantifier,
     root=_root,
     conjunction=r" \land ",

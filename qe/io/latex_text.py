@@ -8,12 +8,10 @@ from fractions import Fraction
 from functools import reduce
 
 from qe.errors import InputError
-from qe.formula.relation import Relation
 from qe.io import latex
 from qe.io import surface as s
 from qe.io.text import read_node, read_term
 
-_RELATIONS = {Relation.NE: r"\neq", Relation.LE: r"\leq", Relation.GE: r"\geq"}
 _ROOTS = {"sqrt": r"\sqrt{{{}}}", "cbrt": r"\sqrt[3]{{{}}}", "abs": r"\left|{}\right|"}
 
 
@@ -100,8 +98,6 @@ def _node(node: s.Node, inside: bool = False) -> str:
         case s.Some(parts):
             return _bracketed(r" \lor ".join(map(_node, parts)), inside)
         case s.Comparison(sides, relations):
-            more = (
-                f" {_RELATIONS.get(r, r.value)} {_term(side)}" for r, side in zip(relations, sides[1:], strict=True)
-            )
-            return _term(sides[0]) + "".join(more)
+            pairs = zip(relations, map(_term, sides[1:]), strict=True)
+            return _term(sides[0]) + "".join(f" {latex.RELATIONS.get(r, r.value)} {side}" for r, side in pairs)
     raise InputError("LaTeX for this formula is not known")

@@ -13,7 +13,7 @@ from collections.abc import Callable, Collection, Iterator
 from fractions import Fraction
 from functools import reduce
 from itertools import chain
-from typing import Any, ClassVar, NamedTuple, get_args
+from typing import Any, ClassVar, NamedTuple
 from unicodedata import normalize
 
 from qe.formula.quantity import MOST
@@ -80,8 +80,6 @@ BRACKET, BODY, IFF, IMPLIES, OR, AND, NOT, RELATION, ELSE, SUM, PRODUCT, SIGN, P
 TERM, FORMULA, CHAIN, SIMPLE = 1, 2, 4, 8
 """Sorts, as bits: ``CHAIN`` is a comparison that another relation may extend, ``SIMPLE`` a term that takes a power."""
 EITHER = TERM | FORMULA
-
-_TERMS = frozenset(get_args(s.Term))
 
 
 def counted(number: str, at: int) -> int:
@@ -197,7 +195,7 @@ class Parser(ABC):
         """How many of the stack go on waiting if a token of this kind follows ``value``; 0 where it cannot follow."""
         operator = self.operator(kind)
         limit = BODY if operator is None else operator.limit
-        sort = TERM | SIMPLE if type(value) in _TERMS else FORMULA
+        sort = TERM | SIMPLE if type(value) in s.TERMS else FORMULA
         count = len(self.stack)
         while (last := self.stack[count - 1]).level >= limit:
             if not last.wants & sort:
@@ -247,6 +245,23 @@ class Parser(ABC):
         if self.token.kind not in kinds:
             raise self.unexpected(kinds)
         return self.advance()
+
+    def skip(self, kind: str) -> bool:
+        """Take the next token if it is of this kind; whether it is."""
+        return self.token.kind == kind and bool(self.advance())
+
+    def part(self, wants: int, *ends: str) -> Any:
+        """The formula or term that comes here; the token behind it, one of ``ends``, is taken."""
+        value = self.expression(wants, *ends)
+        self.advance()
+        return value
+
+    def several(self, wants: int, *ends: str, sign: str = "COMMA") -> list[Any]:
+        """Formulas or terms with a sign between them, up to a token of the kinds ``ends``, which is not taken."""
+        parts = [self.expression(wants, sign, *ends)]
+        while self.skip(sign):
+            parts.append(self.expression(wants, sign, *ends))
+        return parts
 
     def following(self, value: Any) -> set[str]:
         """The kinds of tokens that could follow an operand."""

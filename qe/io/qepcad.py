@@ -59,24 +59,19 @@ def read_posed(text: str, *, source: str = "<text>") -> tuple[Formula, Formula]:
     session = _SESSION.fullmatch(text)
     body, start = (session["formula"], session.start("formula")) if session else (text.rstrip().removesuffix("."), 0)
     node = parsed(_Parser, " " * start + body, fail)
-    formula = lower(node, fail, names=_session_names(session, fail) if session else None)
     if session is None:
-        return formula, TRUE
-    _check_session(session, node, fail)
-    known = conj(_assumed(session, formula, fail))
-    return formula, known
-
-
-def _session_names(session: re.Match[str], fail: s.Fail) -> list[str]:
+        return lower(node, fail), TRUE
     names = [name.strip() for name in session["names"].split(",") if name.strip()]
     if len(set(names)) != len(names):
         raise fail("a variable is listed twice", session.start("names"))
-    return names
+    formula = lower(node, fail, names=names)
+    _check_session(session, names, node, fail)
+    return formula, conj(_assumed(session, names, formula, fail))
 
 
-def _check_session(session: re.Match[str], node: object, fail: s.Fail) -> None:
+def _check_session(session: re.Match[str], names: list[str], node: object, fail: s.Fail) -> None:
     """The counts of a session must fit its formula, and nothing after it may change the question."""
-    names, free = _session_names(session, fail), int(session["free"])
+    free = int(session["free"])
     bound: list[str] = []
     while isinstance(node, s.Quantification | s.Quantity):
         bound += node.names if isinstance(node, s.Quantification) else [node.name]
@@ -85,17 +80,17 @@ def _check_session(session: re.Match[str], node: object, fail: s.Fail) -> None:
         raise fail(f"quantifiers for {', '.join(names[free:]) or 'nothing'} expected", session.start("formula"))
 
 
-def _assumed(session: re.Match[str], formula: Formula, fail: Failing) -> Iterator[Formula]:
+def _assumed(session: re.Match[str], names: list[str], formula: Formula, fail: Failing) -> Iterator[Formula]:
     """The conditions of the commands ``assume``, over the ring of the formula."""
     text = session.string
     for command in _ASSUME.finditer(text, session.start("rest")):
         depth, end = 0, command.end() - 1
         while end < len(text) and (depth := depth + {"[": 1, "]": -1}.get(text[end], 0)):
             end += 1
-        condition = parsed(_Parser, " " * (command.end() - 1) + text[command.end() - 1 : end + 1], fail)
-        if unknown := sorted(set(lower(condition, fail).free) - {*_session_names(session, fail)}):
+        condition = lower(parsed(_Parser, " " * (command.end() - 1) + text[command.end() - 1 : end + 1], fail), fail)
+        if unknown := sorted({*condition.free}.difference(names)):
             raise fail(f"a variable of the session expected, {unknown[0]} found", command.end())
-        yield convert(lower(condition, fail), formula.ring) if formula.ring else lower(condition, fail)
+        yield convert(condition, formula.ring) if formula.ring else condition
 
 
 def _root_comparison(left: s.Term, right: s.Term, token: Token) -> s.Node:

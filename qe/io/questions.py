@@ -58,8 +58,7 @@ _STOCK = (
         r"((?:prove|show)\s+that\s+)for\s+(?!all\b|any\b|every\b|some\b)(.+?),?\s+(?:we\s+have|it\s+holds(?:\s+that)?)\s+",
         r"\1if \2 then ",
     ),
-    (rf"(.*?)both\s+(?:the\s+)?roots\s+of\s+(.+?)\s+are\s+({_SIGN})$", r"\1\2 has both \3 roots"),
-    (r"(.*?)both\s+(?:the\s+)?roots\s+of\s+(.+?)\s+are\s+(.+)$", r"\1\2 has both roots \3"),
+    (r"(.*?)both\s+(?:the\s+)?roots\s+of\s+(.+?)\s+are\s+(.+)$", r"\1\2 has both roots that are \3"),
     (r"(.*?)\s+has\s+(?:all\s+(?:its\s+)?roots\s+real|only\s+real\s+roots)$", r"\1 has both roots"),
     (rf"({_LIST}\s+are\s+[^,]+),\s+({_PROVE}\s)", r"let \1. \2"),
     (rf"({_PROVE}.*?)(?:,?\s+where|\.\s+(?:note:|here))\s+({_LIST}\s+(?:are|is)\s+.+)$", r"let \2. \1"),
@@ -104,9 +103,9 @@ _NOT_REAL = re.compile(
 _UNNAMED = re.compile(r"\bfor\s+(?:all|every)\s+(?:real\s+)?values?$")
 _KINDS = rf"((?:(?:distinct|different|real|equal|double|repeated|{_SIGN}|and)\s+)*)"
 _PLACE = (
-    r"(?:(?:lying\s+|lie\s+)?(?:in|on|inside)\s+(?:the\s+(?:open\s+|closed\s+)?interval\s+)?([\[(][^\[\]()]+[\])])"
-    r"|(?:lying\s+|lie\s+)?between\s+(\S+)\s+and\s+(\S+)"
-    r"|(?:that\s+are\s+)?(greater|larger|bigger|less|smaller)\s+than\s+(\S+))"
+    r"(?:(?:that\s+are|lying|lie)\s+)?"
+    r"(?:(?:in|on|inside)\s+(?:the\s+(?:open\s+|closed\s+)?interval\s+)?([\[(][^\[\]()]+[\])])"
+    r"|between\s+(\S+)\s+and\s+(\S+)|(greater|larger|bigger|less|smaller)\s+than\s+(\S+))"
 )
 _COUNTED = re.compile(
     r"(?:[Tt]he\s+)?(?:(?:quadratic|cubic)\s+)?(?:(?:equation|polynomial|function|(system)(?:\s+of\s+equations)?)\s+)?(?:f\s*\(\w\)\s*=)?(.+?)"
@@ -252,12 +251,8 @@ def _stated(binders: str, claim: str) -> str | None:
         return None
     premises = [f"({kind})" for _, kind in listed if kind not in ("ℝ", "Real")]
     whole = " -> ".join((*premises, f"({claim})"))
-    for pattern, put in (
-        (r"Real\.sqrt\s*\(", "sqrt("),
-        (r"Real\.sqrt\s+(\w+)", r"sqrt(\1)"),
-        (r"\((\S+)\s*:\s*ℝ\)", r"\1"),
-    ):
-        whole = re.sub(pattern, put, whole)
+    whole = re.sub(r"Real\.sqrt\s+(\w+)", r"sqrt(\1)", whole).replace("Real.sqrt", "sqrt")
+    whole = re.sub(r"\((\S+)\s*:\s*ℝ\)", r"\1", whole)
     return f"all {', '.join(names)}. {whole}" if names else whole
 
 
@@ -307,13 +302,13 @@ def _spelt(text: str, names: str) -> str:
     return re.sub(WORD, lambda word: "*".join(word[0]) if word[0] in made else word[0], text)
 
 
-def _quadratic(equation: str, name: str) -> str | None:
-    """That an equation is quadratic in a variable, as a condition: empty where it surely is; None where it is not."""
+def _quadratic(equation: str, name: str) -> list[str] | None:
+    """That an equation is quadratic in a variable, as a condition: none where it surely is; None where it is not."""
     poly = _difference(_spelt(equation, name))
     if poly is None or name not in poly.ring.index or poly.degree(poly.ring.index[name]) != 2:
         return None
     lead = poly.leading(poly.ring.index[name])
-    return "" if lead.is_constant else str(atom(lead, Relation.NE))
+    return [] if lead.is_constant else [str(atom(lead, Relation.NE))]
 
 
 def _counted(text: str, sought: tuple[str, ...]) -> str | None:
@@ -335,10 +330,8 @@ def _counted(text: str, sought: tuple[str, ...]) -> str | None:
     many = "both" if not many and several and conditions else many
     is_double = re.search("equal|double|repeated", kinds)
     if many == "both" or opposite or is_double:
-        quadratic = _quadratic(equation, name)
-        if quadratic is None:
+        if (said := _quadratic(equation, name)) is None:
             return None
-        said = [quadratic] if quadratic else []
         if opposite:
             said += [f"(ex {name}. {equation} and {name} {side} 0)" for side in "<>"]
         elif is_double:
@@ -348,9 +341,9 @@ def _counted(text: str, sought: tuple[str, ...]) -> str | None:
             said += [f"all {name}. {equation} -> {' and '.join(conditions)}"] if conditions else []
         return " and ".join(said)
     many = "at least two" if not many and re.search("distinct|different", kinds) else many
-    lead = _quadratic(equation, name) if re.match(r"(?:[Tt]he\s+)?quadratic\b", text) else ""
+    lead = _quadratic(equation, name) if re.match(r"(?:[Tt]he\s+)?quadratic\b", text) else None
     counting = f"{_many(many)} {name}. {' and '.join((equation, *conditions))}"
-    return f"{lead} and ({counting})" if lead else counting
+    return f"{lead[0]} and ({counting})" if lead else counting
 
 
 def _many(said: str) -> str:
@@ -364,12 +357,11 @@ def _separated(text: str, sought: tuple[str, ...]) -> str | None:
     """``f has one root smaller than 2 and the other greater than 2``; None for another text."""
     two = _SEPARATED.fullmatch(text)
     solved = _equation(two[1], sought) if two else None
-    if two is None or solved is None or (quadratic := _quadratic(*solved)) is None:
+    if two is None or solved is None or (said := _quadratic(*solved)) is None:
         return None
     equation, name = solved
-    places = _place(name, list(two.groups()[1:6])), _place(name, list(two.groups()[6:]))
-    said = [f"(ex {name}. {equation} and {place})" for place in places]
-    return " and ".join([quadratic, *said] if quadratic else said)
+    places = (_place(name, list(place)) for place in (two.groups()[1:6], two.groups()[6:]))
+    return " and ".join([*said, *(f"(ex {name}. {equation} and {place})" for place in places)])
 
 
 def _solvable(text: str, sought: tuple[str, ...]) -> str | None:
@@ -435,7 +427,8 @@ def _always(text: str) -> str | None:
 def optimum_in_words(text: str) -> tuple[int, str, str] | None:
     """1 or -1 (0 without a word for it), the objective and the conditions of ``minimize f subject to c``, ``f, c``,
     ``given c, find the least value of f``; None for another text."""
-    text = re.sub(r"(?i)\bthe\s+(product|sum)\s+of\s+(\w+)\s+and\s+(\w+)", _operation, _typed(text).rstrip(" ?."))
+    text = re.sub(r"(?i)\bthe\s+product\s+of\s+(\w+)\s+and\s+(\w+)", r"\1 * \2", _typed(text).rstrip(" ?."))
+    text = re.sub(r"(?i)\bthe\s+sum\s+of\s+(\w+)\s+and\s+(\w+)", r"\1 + \2", text)
     if extreme := _EXTREME.fullmatch(text):
         wanted = f"{'maximum' if extreme['max'] else 'minimum'} of {extreme['goal']}{extreme['rest'] or ''}"
         text = wanted + (f" subject to {extreme['given']}" if extreme["given"] else "")
@@ -454,10 +447,6 @@ def optimum_in_words(text: str) -> tuple[int, str, str] | None:
     word = (goal[1] or goal[2]).lower() if goal else ""
     sign = (word in ("min", "least", "smallest", "lowest")) - (word in ("max", "greatest", "largest", "highest"))
     return sign, objective, conditions
-
-
-def _operation(said: re.Match[str]) -> str:
-    return f"{said[2]} {'*' if said[1].lower() == 'product' else '+'} {said[3]}"
 
 
 def _at_comma(text: str) -> tuple[str, str]:

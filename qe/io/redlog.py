@@ -102,31 +102,19 @@ class _Parser(QuantifiedParser):
 
     def whole(self, wants: int = FORMULA) -> list[Any]:
         """The formula, and the conditions of its theory."""
-        parts: list[Any] = []
-        if self.token.kind == "NAME" and _CALL.fullmatch(self.token.text):
-            self.advance()
-            bracket = self.token.kind == "OPEN" and _is_closed(self.text[self.token.at :])
-            if bracket:
-                self.advance()
-            parts.append(self.expression(wants, "COMMA", "CLOSE" if bracket else "STOP", END))
-            if self.token.kind == "COMMA":
-                parts += self.theory(wants)
-            if bracket:
-                self.take("CLOSE")
-        else:
-            parts.append(self.expression(wants, "STOP", END))
+        called = _CALL.fullmatch(self.token.text) is not None and self.skip("NAME")
+        bracket = called and _is_closed(self.text[self.token.at :]) and self.skip("OPEN")
+        ends = ("COMMA", "CLOSE" if bracket else "STOP") if called else ("STOP",)
+        parts = [self.expression(wants, *ends, END)]
+        if self.skip("COMMA"):
+            self.take("BEGIN")
+            parts += [] if self.token.kind == "END" else self.several(wants, "END")
+            self.take("END")
+        if bracket:
+            self.take("CLOSE")
         if self.take("STOP", END).kind == "STOP":
             self.take(END)
         return parts
-
-    def theory(self, wants: int) -> Iterator[Any]:
-        self.advance()
-        self.take("BEGIN")
-        while self.token.kind != "END":
-            yield self.expression(wants, "COMMA", "END")
-            if self.token.kind == "COMMA":
-                self.advance()
-        self.advance()
 
     def quantifier(self) -> None:
         token = self.advance()

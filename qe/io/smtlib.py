@@ -20,13 +20,12 @@ from qe.formula.notation import Monomial, digits, oriented
 from qe.formula.syntax import TRUE, And, Atom, Constant, Exists, ForAll, Formula, Not, Or, Relation
 from qe.formula.traverse import children
 from qe.io.names import Renaming, names_in
-from qe.io.smtlib_parser import Expression, parse
+from qe.io.smtlib_parser import SYMBOL, Expression, parse
 from qe.io.smtlib_script import Script
 from qe.io.surface import MAX_DEPTH
 from qe.io.text_errors import Failing
 from qe.io.tokens import without_collections
 
-_SIMPLE = re.compile(r"[A-Za-z~!@$%^&*_+=<>.?/-][A-Za-z0-9~!@$%^&*_+=<>.?/-]*")
 _RESERVED = re.compile(
     r"and|or|not|xor|true|false|ite|distinct|let|exists|forall|match|par|as|assert|declare-.*|define-.*|check-sat.*|"
     r"exit|echo|push|pop|reset.*|get-.*|set-.*|Real|Int|Bool|Array|String|RegLan|BINARY|DECIMAL|HEXADECIMAL|NUMERAL|"
@@ -107,7 +106,7 @@ def _allowed(name: str) -> bool:
 
 def symbol(name: str) -> str:
     """A name as a symbol of SMT-LIB."""
-    return name if _SIMPLE.fullmatch(name) else f"|{name}|"
+    return name if SYMBOL.fullmatch(name) else f"|{name}|"
 
 
 def term(formula: Formula, symbols: Mapping[str, str]) -> str:

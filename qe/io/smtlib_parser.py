@@ -9,10 +9,10 @@ from typing import TypeAlias
 
 from qe.io.surface import Fail
 
-_SYMBOL = re.compile(r"[A-Za-z~!@$%^&*_+=<>.?/-][A-Za-z0-9~!@$%^&*_+=<>.?/-]*")
+SYMBOL = re.compile(r"[A-Za-z~!@$%^&*_+=<>.?/-][A-Za-z0-9~!@$%^&*_+=<>.?/-]*")
 # the scripts of MetiTarski write 1. for 1.0, and other solvers read it
 _WORD = (
-    rf"{_SYMBOL.pattern}|[0-9]+(?:\.[0-9]*)?(?![A-Za-z0-9~!@$%^&*_+=<>.?/-])"
+    rf"{SYMBOL.pattern}|[0-9]+(?:\.[0-9]*)?(?![A-Za-z0-9~!@$%^&*_+=<>.?/-])"
     r'|\|[^|\\]*\||:[A-Za-z0-9~!@$%^&*_+=<>.?/-]+|"(?:[^"]|"")*"|\#x[0-9a-fA-F]+|\#b[01]+'
 )
 _TOKEN = re.compile(rf"(?P<SPACE>\s+|;[^\n]*)|(?P<OPEN>\()|(?P<CLOSE>\))|(?P<WORD>{_WORD})")
@@ -101,7 +101,7 @@ def _placed_words(text: str, fail: Fail) -> Iterator[Word]:
 
 def simplified(word: str) -> str:
     """A symbol without the bars that it does not need."""
-    return word[1:-1] if word[0] == "|" and _SYMBOL.fullmatch(word[1:-1]) else word
+    return word[1:-1] if word[0] == "|" and SYMBOL.fullmatch(word[1:-1]) else word
 
 
 def plain(word: str) -> str:

@@ -113,15 +113,13 @@ class TextParser(QuantifiedParser):
         name = self.advance().text
         self.take("LEFT")
         node: s.Node = self.expression(p.FORMULA, "COMMA", "RIGHT")
-        if self.token.kind == "COMMA" and self.advance() and self.token.kind != "REALS":
+        if self.skip("COMMA") and self.token.kind != "REALS":
             if name in text_lexer.SIMPLIFIERS:
                 raise SyntaxFailure(f"what {name} assumes is given with assuming= or --assuming", self.token.at)
             self.names_or_name()
-            if self.token.kind == "COMMA":
-                self.advance()
+            if self.skip("COMMA"):
                 self.refuse_others()
-        if self.token.kind == "REALS":
-            self.advance()
+        self.skip("REALS")
         while self.token.kind in ("COMMA", "NAME"):  # Backsubstitution -> True
             if self.advance().kind == "NAME":
                 self.take("IMPLIES")
@@ -147,9 +145,9 @@ class TextParser(QuantifiedParser):
     def members(self) -> list[s.Node]:
         """What ``(x, y) ∈ ℝ²`` says in front of the conditions of a set."""
         at, names, within = self.token.at, self.names_or_name(), None
-        if self.token.kind == "IN" and self.advance():
+        if self.skip("IN"):
             within = self.set()
-        if self.token.kind == "POWER" and self.advance() and self.take("NUMBER").text != str(len(names)):
+        if self.skip("POWER") and self.take("NUMBER").text != str(len(names)):
             raise SyntaxFailure(f"a point of {len(names)} coordinates lies in no set to this power", at)
         self.take("BAR", "DOT")
         return [within(s.Name(name, at), at) for name in names] if within else []
@@ -162,13 +160,11 @@ class TextParser(QuantifiedParser):
     def cases(self) -> None:
         """``if f then a else b``, of formulas or of terms."""
         last, at = self.stack[-1], self.advance().at
-        condition = self.expression(p.FORMULA, "THEN")
-        self.advance()
+        condition = self.part(p.FORMULA, "THEN")
         if last.wants & p.FORMULA and not re.search(r"\belse\b", self.text[self.token.at :]):
             self.stack.append(p.Waiting(p.BODY, p.FORMULA, p.FORMULA, lambda body: s.Implication(condition, body)))
             return
-        then = self.expression(p.EITHER if last.wants & p.FORMULA else p.TERM, "ELSE")
-        self.advance()
+        then = self.part(p.EITHER if last.wants & p.FORMULA else p.TERM, "ELSE")
         if isinstance(then, s.Node):
             make: Callable[[Any], Any] = lambda other: s.connected("ITE", [condition, then, other])  # noqa: E731
             self.stack.append(p.Waiting(p.BODY, p.FORMULA, p.FORMULA, make))
@@ -179,13 +175,8 @@ class TextParser(QuantifiedParser):
         """``If[f, a, b]``."""
         at = self.advance().at
         closing = p.CLOSES[self.take("OPEN", "LEFT").kind]
-        condition = self.expression(p.FORMULA, "COMMA")
-        self.advance()
-        then = self.expression(p.TERM, "COMMA")
-        self.advance()
-        other = self.expression(p.TERM, closing)
-        self.advance()
-        return s.Choice(condition, then, other, at)
+        condition, then = self.part(p.FORMULA, "COMMA"), self.part(p.TERM, "COMMA")
+        return s.Choice(condition, then, self.part(p.TERM, closing), at)
 
     def piecewise(self) -> s.Term:
         """SymPy's ``Piecewise((a, f), (b, True))``; no value where no condition holds."""
@@ -194,10 +185,8 @@ class TextParser(QuantifiedParser):
         while not rows or self.token.kind == "COMMA":
             self.take("COMMA" if rows else "OPEN")
             self.take("OPEN")
-            value = self.expression(p.TERM, "COMMA")
-            self.advance()
-            rows.append((self.expression(p.FORMULA, "CLOSE"), value))
-            self.advance()
+            value = self.part(p.TERM, "COMMA")
+            rows.append((self.part(p.FORMULA, "CLOSE"), value))
         self.take("CLOSE")
         none: s.Term | None = None
         chosen = reduce(lambda other, row: s.Choice(row[0], row[1], other, at), reversed(rows), none)

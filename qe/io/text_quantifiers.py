@@ -90,20 +90,15 @@ class QuantifiedParser(Parser):
 
         self.stack.pop()
         level = NOT if self.token.kind in CLOSES else BODY
-        if self.token.kind == "DOT":
-            self.advance()
+        self.skip("DOT")
         self.stack.append(Waiting(level, FORMULA, FORMULA, whole))
 
     def condition(self, quantifier: Token) -> list[s.Node]:
         """What has to hold of the variables of ``for all x, y with x < y: f``, also behind its formula."""
         is_behind = bool(self.conditions) and len(self.stack) == 1
         if quantifier.text in _UNIVERSAL and (is_behind or re.search(r":(?!=)|\.\s", self.text[self.token.at :])):
-            end = END if is_behind else "DOT"
-            start, parts = self.token.at, [self.expression(FORMULA, end, "COMMA")]
-            while self.token.kind == "COMMA":
-                self.advance()
-                parts.append(self.expression(FORMULA, end, "COMMA"))
-            return [together(parts, start)]
+            start = self.token.at
+            return [together(self.several(FORMULA, END if is_behind else "DOT"), start)]
         return []
 
     def bound(self) -> tuple[list[str], Within | None]:
@@ -113,8 +108,7 @@ class QuantifiedParser(Parser):
         if self.token.kind in ("NUMBER", "MINUS"):
             return self.between(ends)
         names, within = self.names(), None
-        if self.token.kind == "IN":
-            self.advance()
+        if self.skip("IN"):
             within = self.set()
         elif self.token.kind == "RELATION":
             relation = RELATIONS[self.advance().text]
@@ -183,8 +177,7 @@ class QuantifiedParser(Parser):
 
     def intersection(self) -> Within:
         value = self.simple_set()
-        while self.token.kind == "COMMON":
-            self.advance()
+        while self.skip("COMMON"):
             value = _combined(s.Every, value, self.simple_set())
         return value
 
@@ -205,8 +198,7 @@ class QuantifiedParser(Parser):
         if kind == "BEGIN":
             values = self.arguments("END")
             return lambda term, at: s.Some([s.Comparison([term, value], [Relation.EQ], at) for value in values])
-        left = self.expression(TERM, "COMMA")
-        self.advance()
+        left = self.part(TERM, "COMMA")
         right = self.expression(TERM, "CLOSE", "RIGHT")
         end = left.part if isinstance(left, s.Minus) else left
         low = Relation.GE if kind == "LEFT" and not isinstance(end, s.Infinity) else Relation.GT
@@ -216,23 +208,15 @@ class QuantifiedParser(Parser):
 
     def arguments(self, closing: str) -> list[s.Term]:
         """Terms with commas between them, and the bracket behind them."""
-        values = [self.expression(TERM, "COMMA", closing)]
-        while self.advance().kind == "COMMA":
-            values.append(self.expression(TERM, "COMMA", closing))
+        values = self.several(TERM, closing)
+        self.advance()
         return values
 
     def element(self) -> s.Node:
         """``Element[x | y, Reals]``."""
         at = self.advance().at
         closing = CLOSES[self.take("OPEN", "LEFT").kind]
-        if self.token.kind == "BEGIN":
-            self.advance()
-            members = self.arguments("END")
-        else:
-            members = [self.expression(TERM, "ALSO", "COMMA")]
-            while self.token.kind == "ALSO":
-                self.advance()
-                members.append(self.expression(TERM, "ALSO", "COMMA"))
+        members = self.arguments("END") if self.skip("BEGIN") else self.several(TERM, "COMMA", sign="ALSO")
         self.take("COMMA")
         within = self.set()
         self.take(closing)
