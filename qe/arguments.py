@@ -88,57 +88,49 @@ def listener(value: object, what: str = "progress") -> Callable[..., Any]:
     return value
 
 
-def _number(given: object, kind: type) -> Any:
-    """The value if it is a number of this kind (``numbers.Real``, ``numbers.Integral``), no truth value and no time
-    of numpy's, which its type calls an integer although it counts units of its own."""
-    is_number = isinstance(given, kind) and not isinstance(given, bool)
-    return given if is_number and type(given).__name__ not in _TIMES else None
+def _is_number(given: object, kind: type) -> bool:
+    """Whether it is a number of this kind (``numbers.Real``, ``numbers.Integral``), no truth value and no time of
+    numpy's, which its type calls an integer although it counts units of its own."""
+    return isinstance(given, kind) and not isinstance(given, bool) and type(given).__name__ not in _TIMES
+
+
+def _number(given: Any, kind: type, fits: Callable[[Any], bool], what: str, expected: str) -> Any:
+    """A number of this kind that fits; what is not a number does not fit any bounds."""
+    if not _is_number(given, kind) or not fits(given):
+        raise wrong(what, expected, given)
+    return given
 
 
 def seconds(given: object, what: str = "timeout") -> float | None:
     """A limit on time: a positive number of seconds, or None for no limit."""
     if given is None:
         return None
-    value = _number(given, Real)
-    if value is None or not 0 < value < LONGEST_TIME:  # not a number, too, is refused by this
-        raise wrong(what, "a positive number of seconds", given)
-    return float(value)
+    return float(_number(given, Real, lambda value: 0 < value < LONGEST_TIME, what, "a positive number of seconds"))
 
 
 def mebibytes(given: object, what: str = "memory") -> int | None:
     """A limit on memory: a positive number of MiB, or None for no limit."""
     if given is None:
         return None
-    value = _number(given, Integral)
-    if value is None or not 0 < value < MOST_MEMORY:
-        raise wrong(what, "a positive whole number of MiB", given)
-    return int(value)
+    return int(_number(given, Integral, lambda value: 0 < value < MOST_MEMORY, what, "a positive whole number of MiB"))
 
 
 def whole(given: object, what: str, most: float = math.inf) -> int:
     """A natural number, up to ``most``."""
-    value = _number(given, Integral)
-    if value is None or not 0 <= value <= most:
-        raise wrong(what, "a natural number" if most == math.inf else f"a natural number up to {most}", given)
-    return int(value)
+    expected = "a natural number" if most == math.inf else f"a natural number up to {most}"
+    return int(_number(given, Integral, lambda value: 0 <= value <= most, what, expected))
 
 
 def integers(value: object, what: str) -> list[int]:
     """Integers in order."""
     if not isinstance(value, Iterable) or isinstance(value, str | bytes | bytearray | Mapping | set | frozenset):
         raise wrong(what, "integers in order", value)
-    found = list(value)
-    for item in found:
-        if isinstance(item, bool) or not isinstance(item, Integral):
-            raise wrong(what, "integers", item)
-    return [int(item) for item in found]
+    return [int(_number(item, Integral, lambda _: True, what, "integers")) for item in value]
 
 
 def ratio(given: object, what: str) -> Fraction:
     """A number between 0 and 1."""
-    value = _number(given, Real)
-    if value is None or not 0 < value < 1:
-        raise wrong(what, "a number between 0 and 1", given)
+    value = _number(given, Real, lambda value: 0 < value < 1, what, "a number between 0 and 1")
     return Fraction(value) if isinstance(value, Rational | float) else Fraction(float(value))
 
 
@@ -267,9 +259,9 @@ def rational(value: object, what: str, expected: str = "an exact number") -> Fra
         return _rational(value, what, expected)
     if isinstance(value, Decimal) or getattr(value, "is_Float", False) is True:
         return _rational(str(value), what, expected)
-    if _number(value, Rational) is not None and isinstance(value, Rational):
+    if _is_number(value, Rational) and isinstance(value, Rational):
         return Fraction(int(value.numerator), int(value.denominator))
-    if _number(value, Real) is not None and type(value).__module__ == "numpy":  # float32 and its kind
+    if _is_number(value, Real) and type(value).__module__ == "numpy":  # float32 and its kind
         return _rational(str(value), what, expected)
     raise wrong(what, expected, value)
 

@@ -10,7 +10,7 @@ class QEError(Exception):
 
     def __reduce__(self) -> tuple[object, tuple[object, ...]]:
         """Pickled without its constructor, which makes a message of other arguments."""
-        return _restored, (type(self), self.args, vars(self))
+        return restored, (type(self), self.args, vars(self))
 
 
 class InputError(QEError):
@@ -88,7 +88,8 @@ class Contradiction(InternalError):
     """Two ways to an answer disagree: one of them is wrong, and nobody may be given either."""
 
 
-def _restored(kind: type[QEError], arguments: tuple[object, ...], attributes: dict[str, object]) -> QEError:
+def restored(kind: type[QEError], arguments: tuple[object, ...], attributes: dict[str, object]) -> QEError:
+    """An error of this class with these arguments and attributes; no message is made once more."""
     error = kind.__new__(kind, *arguments)
     vars(error).update(attributes)
     return error

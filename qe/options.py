@@ -192,11 +192,6 @@ class Budget:
         "used",
         "work",
     )
-    deadline: float | None
-    work: int | None
-    used: int
-    listener: Listener
-    parent: Budget | None
 
     def __init__(
         self,

@@ -104,17 +104,13 @@ def under(
         raise InputError(f"assuming: free variables expected, {', '.join(hidden)} is bound in the formula")
     seen = {*formula.free, *others}
     idle = [part for part in conjuncts(outer) if part.free and not seen & {*part.free}]
-    if both == FALSE or not performed(partial(_can_hold, both), both, limits):
+    from qe.engine.assuming import can_hold
+
+    if both == FALSE or not performed(partial(can_hold, both, Options()), both, limits):
         warned(["assuming: nothing meets these conditions, so every answer is right"])
     elif idle:
         warned([f"assuming: {part} says nothing of the free variables of the formula" for part in idle])
     return Posed(formula, both)
-
-
-def _can_hold(known: Formula, budget: Budget) -> bool:
-    from qe.engine.assuming import can_hold
-
-    return can_hold(known, Options(), budget)
 
 
 def read_under(limits: Limits, read: Callable[[], Result], *given: object) -> Result:

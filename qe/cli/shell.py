@@ -28,7 +28,7 @@ from typer.main import get_command, get_command_name
 
 from qe.cli.source import in_json
 from qe.cli.values import take_leading_minus, take_plain_values
-from qe.errors import CertificateRejected, DoubtfulInput, InputError, QEError, Unable
+from qe.errors import CertificateRejected, DoubtfulInput, InputError, QEError, Unable, restored
 from qe.extras import lacking
 from qe.progress import Event
 
@@ -310,7 +310,7 @@ def limited(
     from qe.processes.channel import Known
     from qe.processes.execution import grace_of, run
     from qe.processes.limits import Limits
-    from qe.processes.portable import portable, rebuilt
+    from qe.processes.portable import portable
 
     grace, known = 0.0 if timeout is None else remaining(timeout) - timeout + grace_of(timeout), Known()
     at_once = text is None or timeout is not None or _may_block(text)
@@ -319,7 +319,7 @@ def limited(
         try:
             return run(partial(_with_doubts, work), limits, at_once=at_once, grace=grace, known=known)
         except (RecursionError, MemoryError, ValueError) as error:
-            raise rebuilt(portable(error)) from error
+            raise restored(*portable(error)) from error
         finally:
             if NOTE in known.facts:
                 warnings.warn(str(known.facts[NOTE]), DoubtfulInput, stacklevel=2)

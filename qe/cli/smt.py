@@ -115,10 +115,12 @@ class Solver(Checks):
         self.script.fail = fail
         self.begin()
         read = _READ.match(text)
-        if self.late and read:
-            self.passed_over(read[1])
-            return
         asserts = read is not None and read[1] == "assert"
+        if self.late and read:  # what is asserted is not known any more
+            self.script.lost |= asserts
+            if self.options.get(":print-success") == "true":
+                self.error(InputError("unable: time limit reached"))
+            return
         try:
             if read and self.changed(text, fail):
                 return
@@ -145,12 +147,6 @@ class Solver(Checks):
         if self.options.get(":print-success") == "true":
             self.put("success")
         return True
-
-    def passed_over(self, head: str) -> None:
-        """A command that there was no time to read; what is asserted is not known any more."""
-        self.script.lost |= head == "assert"
-        if self.options.get(":print-success") == "true":
-            self.error(InputError("unable: time limit reached"))
 
     def error(self, error: Exception) -> None:
         self.failed = True
@@ -253,10 +249,9 @@ class Solver(Checks):
 
     def reset_assertions(self) -> None:
         """Drop all levels and assertions; declarations stay only where they are global."""
-        options = self.options.get(":global-declarations") == "true"
         kept = self.script
         self.restart()
-        if options:
+        if self.options.get(":global-declarations") == "true":
             kept.levels.clear()
             kept.assertions.clear()
             kept.lost = False

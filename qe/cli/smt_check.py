@@ -140,7 +140,7 @@ class Checks:
     def sent(self) -> Script:
         """The script as another process has it: what nodes mean, and nothing of how they were read."""
         script = copy(self.script)
-        script.tick = unwatched  # what watches here holds the streams of this process
+        del script.tick  # what watches here holds the streams of this process
         script.assertions, script.objectives, script.levels = [], [], []
         script.globals, script.forms, script.expanded = {}, {}, {}
         return script
@@ -153,10 +153,6 @@ def _simple_point(formula: Formula) -> dict[str, Number] | None:
     points = [dict.fromkeys(formula.free, Fraction(value)) for value in (0, 1, 2, -1)]
     found = (point for point in points if formula.is_quantifier_free and holds_at(formula, point))
     return next(found, None)
-
-
-def unwatched() -> None:
-    """Nothing is looked at while reading."""
 
 
 def _formula(script: Script, nodes: Sequence[s.Node], total: Total, budget: Budget) -> tuple[Formula, Total]:

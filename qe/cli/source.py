@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import io
 import json
+import os
 import re
 import sys
 import time
@@ -169,23 +170,12 @@ def read_source(argument: str, wanted: Format | None) -> Source:
 
 def no_file(name: str) -> InputError:
     """The error for a name at which there is no file to read."""
-    return InputError(f"{name}: {'a file expected, a folder found' if is_folder(name) else 'no such file'}")
-
-
-def is_folder(name: str) -> bool:
-    """Whether there is a folder of this name."""
-    try:
-        return Path(name).is_dir()
-    except (OSError, ValueError):
-        return False
+    return InputError(f"{name}: {'a file expected, a folder found' if os.path.isdir(name) else 'no such file'}")
 
 
 def is_file(path: Path) -> bool:
     """Whether the path names something to read; text that is no possible path is not one."""
-    try:
-        return path.exists() and not path.is_dir()
-    except (OSError, ValueError):
-        return False
+    return os.path.exists(path) and not os.path.isdir(path)
 
 
 def read_text(path: Path) -> str:

@@ -125,8 +125,8 @@ def named(nodes: Sequence[s.Node], shared: Sequence[s.Part], bound: Collection[s
     naming = _Naming(parts, bound, make)
     for part in parts:
         naming.replace(part)
-    new = naming.now
-    return Named([cast(s.Node, new[id(n)]) for n in nodes], naming.definitions, naming.names, naming.built(shared))
+    new, kept = naming.now, [naming.meant[id(part)] for part in shared if id(part) in naming.meant]
+    return Named([cast(s.Node, new[id(n)]) for n in nodes], naming.definitions, naming.names, kept)
 
 
 def _sizes(parts: Sequence[s.Part]) -> dict[int, tuple[int, int]]:
@@ -231,10 +231,6 @@ class _Naming:
             for field in part
         ]
         return cast(Callable[..., s.Part], type(part))(*fields)
-
-    def built(self, shared: Iterable[s.Part]) -> list[s.Part]:
-        """What the shared parts mean now that the nodes contain."""
-        return [self.meant[id(part)] for part in shared if id(part) in self.meant]
 
 
 def chain(term: s.Term, known: Container[int] = ()) -> tuple[s.Term, list[s.Product | s.Quotient]]:

@@ -9,7 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from fractions import Fraction
-from math import lcm, prod
+from math import comb, lcm, prod
 from typing import NamedTuple, cast
 
 from qe.errors import InputError
@@ -138,20 +138,10 @@ def power(base: Value, exponent: int) -> Value:
     if poly.total_degree * exponent > MAX_DEGREE:
         raise TermError(f"the degree {poly.total_degree * exponent} is above the limit of {MAX_DEGREE}")
     bits = exponent * (base.bits + (count - 1).bit_length())
-    _bounded(min(_multinomial(exponent, count), prod(d * exponent + 1 for d in poly.degrees)), bits)
+    _bounded(min(comb(exponent + count - 1, exponent), prod(d * exponent + 1 for d in poly.degrees)), bits)
     if base.den.bit_length() * exponent > MAX_BITS:
         raise TermError("the power is too large")
     return Value(poly**exponent, base.den**exponent, bits)
-
-
-def _multinomial(exponent: int, count: int) -> int:
-    """binomial(exponent + count - 1, exponent), or anything above the limit."""
-    result = 1
-    for k in range(1, count):
-        result = result * (exponent + k) // k
-        if result > MAX_TERMS:
-            break
-    return result
 
 
 def _bounded(count: int, bits: int) -> None:

@@ -120,7 +120,8 @@ def run(
             except _Moves as move:
                 if move.handover is not handover or handover is outer:
                     raise
-        from qe.processes.worker import asked, packed
+        from qe.processes.portable import packed
+        from qe.processes.worker import asked
 
         sent = packed(work)
         if sent is None:

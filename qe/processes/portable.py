@@ -7,7 +7,7 @@ import pickle
 import re
 import traceback
 
-from qe.errors import BudgetExceeded, InternalError, QEError, Unable
+from qe.errors import BudgetExceeded, InternalError, QEError, Unable, restored
 from qe.extras import lacking
 
 Parts = tuple[type[QEError], tuple[object, ...], dict[str, object]]
@@ -32,7 +32,7 @@ def portable(error: BaseException) -> Parts:
         place = f" at {'/'.join(frames[-1].filename.split('/')[-2:])}:{frames[-1].lineno}" if frames else ""
         text = f"{type(error).__name__}{place}: {error}".splitlines()[0]
         return InternalError, (text,), {"trace": "".join(traceback.format_exception(error))}
-    return type(error), (str(error),), {k: v for k, v in vars(error).items() if _picklable(v)}
+    return type(error), (str(error),), {k: v for k, v in vars(error).items() if packed(v) is not None}
 
 
 def _out_of_memory(error: BaseException) -> bool:
@@ -42,17 +42,11 @@ def _out_of_memory(error: BaseException) -> bool:
     return isinstance(error, MemoryError) or (isinstance(error, OSError) and error.errno == errno.ENOMEM)
 
 
-def rebuilt(parts: Parts) -> QEError:
-    """The error that ``portable`` took apart."""
-    kind, arguments, attributes = parts
-    error = kind.__new__(kind, *arguments)
-    vars(error).update(attributes)
-    return error
-
-
-def _picklable(value: object) -> bool:
+def packed(value: object) -> bytes | None:
+    """The value as it is sent; None where it cannot be. Raises ``Unable`` for what is nested too deeply."""
     try:
-        pickle.dumps(value)
+        return pickle.dumps(value)
+    except RecursionError as error:
+        raise restored(*portable(error)) from None
     except (TypeError, AttributeError, pickle.PicklingError):
-        return False
-    return True
+        return None

@@ -32,7 +32,8 @@ def first(
     ``Unable`` for one that cannot be sent to another process.
     """
     leave()
-    from qe.processes.worker import Worker, begun, packed, settled
+    from qe.processes.portable import packed
+    from qe.processes.worker import Worker, begun, settled
 
     start = time.monotonic() if limits.start is None else limits.start
     deadline = math.inf if limits.timeout is None else start + limits.timeout

@@ -20,10 +20,9 @@ import threading
 import time
 from collections.abc import Callable
 
-from qe.errors import BudgetExceeded, Unable
+from qe.errors import BudgetExceeded, Unable, restored
 from qe.processes.channel import Known, Message, WorkerDied, WorkerStopped
 from qe.processes.limits import Limits
-from qe.processes.portable import portable, rebuilt
 
 START = "import sys; sys.path[:] = sys.argv[1:]; from qe.processes.service import serve; serve()"
 PACKAGES = ("qe.", "bezier.")
@@ -127,16 +126,6 @@ def end_idle() -> None:
         IDLE.pop().end()
 
 
-def packed(work: Callable[..., object]) -> bytes | None:
-    """The work as it is sent; None where it cannot be. Raises ``Unable`` for what is nested too deeply."""
-    try:
-        return pickle.dumps(work)
-    except RecursionError as error:
-        raise rebuilt(portable(error)) from None
-    except (TypeError, AttributeError, pickle.PicklingError):
-        return None
-
-
 def begun(work: bytes, limits: Limits, deadline: float) -> tuple[Worker, float]:
     """A worker that has this question, and its deadline: half of the time is left where the start of a worker took it.
 
@@ -179,7 +168,7 @@ def settled(worker: Worker, message: Message | None, limits: Limits, known: Know
     kind, value = message
     if kind == "result":
         return value
-    error = rebuilt(value)  # type: ignore[arg-type]
+    error = restored(*value)  # type: ignore[misc]
     if type(error) is BudgetExceeded:  # a soft limit: the same story, told with what is known
         raise WorkerStopped(str(error), limit=error.limit, known=known)
     raise error

@@ -5,13 +5,13 @@ import pickle
 
 import pytest
 
-from qe.errors import BudgetExceeded, InputError, InternalError, ParseError, QEError, Unable
-from qe.processes.portable import portable, rebuilt
+from qe.errors import BudgetExceeded, InputError, InternalError, ParseError, QEError, Unable, restored
+from qe.processes.portable import portable
 from tests.tables import each
 
 
 def sent(error: BaseException) -> QEError:
-    return rebuilt(pickle.loads(pickle.dumps(portable(error))))
+    return restored(*pickle.loads(pickle.dumps(portable(error))))
 
 
 def raised(error: BaseException) -> BaseException:
