@@ -3,21 +3,17 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from fractions import Fraction
 from math import lcm
 
-from qe.convex.kkt import Kkt, kkt_point, sign
-from qe.convex.minimise import rational_numbers
+from qe.convex.minimise import equations_of_hull
 from qe.convex.system import NotConvex, read_system
-from qe.convex.violation import height, proposed, violation_forms
-from qe.errors import InternalError
-from qe.exact.kkt_system import HighDegree
+from qe.convex.violation import proposed
+from qe.errors import InternalError, Unable
 from qe.exact.quadratic_form import Quadratic
 from qe.exact.ring import Poly, Ring
 from qe.formula.build import atom
 from qe.formula.syntax import FALSE, Atom, Formula, Relation
 from qe.options import Budget
-from qe.proof.multipliers import Face, FormRelation, derived_equations
 from qe.rules.linear import put_in
 from qe.simplifier.simplify import simplify
 
@@ -68,32 +64,12 @@ def implied_equations(conditions: Formula, *, budget: Budget) -> list[Poly] | No
     witness, weights = proposed(forms)
     if weights is not None:
         return None
-    violation = None if witness is not None else _least_violation(forms, budget)
-    equations = [] if violation is None else _equations(violation, forms)
-    return [_poly(e, system.names, ring) for e in equations if any(e.gradient)]
-
-
-def _least_violation(forms: Sequence[Quadratic], budget: Budget) -> Kkt | None:
-    """The proved least violation where it is zero; its multipliers belong to the forms, not to their scaled copies."""
-    size = forms[0].size
-    extended, scales = violation_forms(forms, size)
     try:
-        kkt = kkt_point(height(size), extended, budget=budget)
-    except (HighDegree, OverflowError):  # an irrational flat, or numbers beyond the range of floats
-        return None
-    if kkt is None or sign(kkt.point[-1]) != 0:
-        return None
-    multipliers = {i: m * scales[i] for i, m in kkt.multipliers.items() if i < len(forms)}
-    return Kkt(kkt.field, kkt.point[:-1], multipliers, kkt.unique)
-
-
-def _equations(kkt: Kkt, forms: Sequence[Quadratic]) -> list[Quadratic]:
-    place, weights = rational_numbers(kkt.point), rational_numbers(list(kkt.multipliers.values()))
-    if place is None or weights is None:
-        return []
-    chosen = dict(zip(kkt.multipliers, weights, strict=True))
-    face = Face(tuple(chosen.get(i, Fraction(0)) for i in range(len(forms))), (), place)
-    return derived_equations(face, forms, [FormRelation.LE] * len(forms))
+        known = [] if witness is not None else equations_of_hull(system, budget)
+    except Unable:  # an irrational flat, or numbers beyond the range of floats
+        budget.check("optimum: facial reduction")
+        known = []
+    return [_poly(e, system.names, ring) for e in known if any(e.gradient)]
 
 
 def _poly(equation: Quadratic, names: Sequence[str], ring: Ring) -> Poly:

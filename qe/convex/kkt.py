@@ -7,14 +7,15 @@ minimum. Everything in that sentence is decided exactly here, so a wrong proposa
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from itertools import combinations
 
 from qe.convex.float_linear_algebra import caratheodory, free_columns
 from qe.convex.interior_point import Proposal, interior_point, natural_scale, to_float
-from qe.exact.field import FieldElement, NumberField
+from qe.convex.simplex import Nowhere, least_cost, sign
+from qe.exact.field import NumberField
 from qe.exact.kkt_system import MAX_DEGREE, HighDegree, Point, critical_point
 from qe.exact.quadratic_form import Number, Quadratic, independent_rows, solve_linear
 from qe.options import Budget
@@ -68,7 +69,7 @@ def kkt_point(
             except HighDegree as reason:
                 raise HighDegree(str(reason), reason.near, support) from None
             if candidate is not None:
-                proved = _prove(objective, forms, support, *candidate)
+                proved = _prove(objective, forms, support, *candidate, check)
                 if proved is not None:
                     return proved
     return None
@@ -119,15 +120,13 @@ def _pinned(
         yield active + pins
 
 
-def sign(value: Number) -> int:
-    """The sign of a Fraction or a field element."""
-    if isinstance(value, FieldElement):
-        return value.sign()
-    return int(value > 0) - int(value < 0)
-
-
 def _prove(
-    objective: Quadratic, forms: Sequence[Quadratic], support: Sequence[int], field: NumberField, point: Point
+    objective: Quadratic,
+    forms: Sequence[Quadratic],
+    support: Sequence[int],
+    field: NumberField,
+    point: Point,
+    check: Callable[[], None],
 ) -> Kkt | None:
     """Check the theorem's conditions exactly; the support's multipliers are recomputed by linear algebra."""
     signs = [sign(g.value(point)) for g in forms]
@@ -138,9 +137,10 @@ def _prove(
     target = [-d for d in objective.slope(point)]
     multipliers = _nonnegative(slopes, target, [i for i in support if i in slopes])
     if multipliers is None:
-        multipliers = _search(slopes, target)
-    if multipliers is None:
-        return None
+        found = least_cost(list(slopes.values()), target, [Fraction(0)] * len(zero), check=check)
+        if isinstance(found, Nowhere):
+            return None
+        multipliers = {zero[k]: w for k, w in found.weights.items()}
     return Kkt(field, point, multipliers, _unique(objective, forms, slopes, multipliers))
 
 
@@ -153,21 +153,6 @@ def _nonnegative(
     if solution is None or any(sign(v) < 0 for v in solution.particular):
         return None
     return {i: v for i, v in zip(support, solution.particular, strict=True) if v}
-
-
-def _search(slopes: dict[int, list[Number]], target: Sequence[Number]) -> dict[int, Number] | None:
-    """Multipliers by trying independent supports among all active constraints (Carathéodory: size <= n)."""
-    tried = 0
-    for size in range(min(len(slopes), len(target)) + 1):
-        for support in combinations(slopes, size):
-            tried += 1
-            if tried > _MAX_SUBSETS:
-                return None
-            if len(independent_rows([slopes[i] for i in support])) == size:
-                found = _nonnegative(slopes, target, support)
-                if found is not None:
-                    return found
-    return None
 
 
 def _unique(

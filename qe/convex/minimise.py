@@ -14,9 +14,9 @@ from fractions import Fraction
 from functools import partial
 
 from qe.convex.frame import centred_frame, lies_far, plain_frame
-from qe.convex.kkt import Kkt, kkt_point, sign
+from qe.convex.kkt import Kkt, kkt_point
 from qe.convex.near_optimum import bracket
-from qe.convex.simplex import Endless, Least, linear_optimum
+from qe.convex.simplex import Endless, Least, linear_optimum, sign
 from qe.convex.system import ConvexSystem
 from qe.convex.violation import height, proposed, violation_forms
 from qe.errors import BudgetExceeded, InternalError, Unable
@@ -196,6 +196,13 @@ def _without_multipliers(
     if violation == 0:
         return _face(system, state, point, weights)
     return _recede(system, state, kkt.field, point, budget)
+
+
+def equations_of_hull(system: ConvexSystem, budget: Budget) -> list[Quadratic]:
+    """Of a system of inequalities, the equations that one step of facial reduction derives. Raises ``Unable``."""
+    state = _State((), (), Flat.whole(len(system.names)), plain_frame, False)
+    step = _without_multipliers(system, state, dict(enumerate(system.forms)), budget)
+    return [*step.derived] if isinstance(step, _State) else []
 
 
 def _least(

@@ -11,8 +11,8 @@ from dataclasses import dataclass, replace
 from fractions import Fraction
 
 from qe.convex.evidence import optimum_certificate
-from qe.convex.kkt import sign
 from qe.convex.minimise import rational_numbers
+from qe.convex.simplex import sign
 from qe.convex.strict import proved
 from qe.convex.system import NotConvex, atoms_of, read_system
 from qe.errors import Unable

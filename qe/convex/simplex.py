@@ -6,10 +6,17 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 
-from qe.convex.kkt import sign
+from qe.exact.field import FieldElement
 from qe.exact.quadratic_form import Number, Quadratic, Vector
 
 _ZERO, _ONE = Fraction(0), Fraction(1)
+
+
+def sign(value: Number) -> int:
+    """The sign of a Fraction or a field element."""
+    if isinstance(value, FieldElement):
+        return value.sign()
+    return int(value > 0) - int(value < 0)
 
 
 @dataclass(frozen=True, slots=True)

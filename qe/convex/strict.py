@@ -13,10 +13,10 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
+from functools import partial
 
-from qe.convex.alternative import Balance, alternative
-from qe.convex.kkt import sign
 from qe.convex.minimise import evidence_about, solve, with_equations
+from qe.convex.simplex import Endless, Least, Nowhere, least_cost, sign
 from qe.convex.system import ConvexSystem, constant
 from qe.errors import InternalError, Unable
 from qe.exact.kkt_system import Point
@@ -32,7 +32,7 @@ from qe.proof.multipliers import (
     tangents,
 )
 
-_ZERO = Fraction(0)
+_ZERO, _ONE = Fraction(0), Fraction(1)
 _FINEST = 2**16
 
 
@@ -112,10 +112,9 @@ def _strictly_inside(system: ConvexSystem, x: Point, equations: Sequence[Vector]
         along = {i: row for i, row in along.items() if not _vanishes(system, i, row, solution.kernel)}
         keys = sorted(along, key=lambda i: system.relations[i] is not FormRelation.LT)
         outcome = alternative([along[i] for i in keys], len(solution.kernel), budget=budget)
-        if not isinstance(outcome, Balance):
-            return _moved(
-                system, x, [dot(outcome.direction, column) for column in zip(*solution.kernel, strict=True)], budget
-            )
+        if isinstance(outcome, Nowhere):
+            step = [dot(outcome.dual[:-1], column) for column in zip(*solution.kernel, strict=True)]
+            return _moved(system, x, step, budget)
         weights = {keys[k]: w for k, w in outcome.weights.items()}
         derived = rows[system.relations.count(FormRelation.EQ) :]
         link = FaceLink(*with_equations(system, derived, x, weights, with_objective=False))
@@ -124,6 +123,15 @@ def _strictly_inside(system: ConvexSystem, x: Point, equations: Sequence[Vector]
             return _Excluded(tuple(links))
         rows += tangents(link.weights, system.forms, system.relations, x)
     raise InternalError("the affine hull of the points that count did not shrink")
+
+
+def alternative(rows: Sequence[Vector], size: int, *, budget: Budget) -> Least | Nowhere | Endless:
+    """THEOREM (Gordan 1873). For rows of length ``size`` over an ordered field either there are ``weights`` >= 0, not
+    all of them zero, with sum weights_i row_i = 0, or a direction makes all rows negative: ``dual`` without its last
+    entry s > 0, as (dual, s).(row_i, 1) <= 0."""
+    columns = [(*row, _ONE) for row in rows]
+    check = partial(budget.check, "optimum: strict conditions")
+    return least_cost(columns, [*([_ZERO] * size), _ONE], [_ZERO] * len(rows), check=check)
 
 
 def _vanishes(system: ConvexSystem, i: int, slope: Sequence[Number], directions: Sequence[Vector]) -> bool:

@@ -14,8 +14,9 @@ from hypothesis import strategies as st
 
 import qe
 from qe.certify.verify import verify, verify_json
-from qe.convex.alternative import Balance, alternative
 from qe.convex.optimum import Optimum, OptimumStatus, minimize
+from qe.convex.simplex import Least, Nowhere
+from qe.convex.strict import alternative
 from qe.elimination.protocol import Context, Outcome
 from qe.engine.strategy import STRATEGY, Attempt
 from qe.errors import Unable
@@ -406,8 +407,9 @@ def test_of_gordans_alternative_one_side_is_always_given(first, second, irration
         for row, other in zip(rows, second, strict=False):
             row[:] = [a + b * field.generator() for a, b in zip(row, other, strict=True)]
     found = alternative(rows, size, budget=Budget())
-    if isinstance(found, Balance):
+    if isinstance(found, Least):
         assert found.weights and all(w > 0 for w in found.weights.values())
         assert not any(sum(w * rows[i][k] for i, w in found.weights.items()) for k in range(size))
     else:
-        assert all(sum(a * d for a, d in zip(row, found.direction, strict=True)) < 0 for row in rows)
+        assert isinstance(found, Nowhere)
+        assert all(sum(a * d for a, d in zip(row, found.dual[:-1], strict=True)) < 0 for row in rows)

@@ -6,7 +6,7 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import cached_property
-from math import inf, lcm
+from math import lcm
 
 from qe.convex.strict import feasible
 from qe.convex.system import is_convex
@@ -24,25 +24,6 @@ from qe.options import Budget
 from qe.proof.multipliers import FormRelation
 
 Values = tuple[Fraction, ...]
-
-_CLEARLY = 1e-6
-
-
-@dataclass(frozen=True, slots=True)
-class Fibre:
-    """One condition over a rational point: exactly, and rounded to floats for quick looks."""
-
-    exact: Quadratic
-    hessian: tuple[tuple[float, ...], ...]
-    gradient: tuple[float, ...]
-    constant: float
-
-    def near(self, y: Sequence[float]) -> float:
-        """The value at y, about."""
-        total = self.constant
-        for i, row in enumerate(self.hessian):
-            total += y[i] * (self.gradient[i] + sum(h * v for h, v in zip(row, y, strict=True)) / 2)
-        return total
 
 
 class Fibres:
@@ -89,7 +70,7 @@ class Fibres:
             return True
         if self._forms is None:
             return self._exactly(Point.of(self.system.ring, parameters))
-        forms = [_over(form, parameters) for form in self._forms]
+        forms = [form.at(parameters) for form in self._forms]
         known = self._known(forms)
         return self._convex(forms, parameters) if known is None else known
 
@@ -106,7 +87,7 @@ class Fibres:
                 return poly
         if self.hold_at(parameters) or self._forms is None:
             return None
-        over = [_over(form, parameters) for form in self._forms]
+        over = [form.at(parameters) for form in self._forms]
         found = next((s for s in self.separations if s.excludes(over)), None)
         return None if found is None else found.minimum(self._forms)
 
@@ -130,7 +111,7 @@ class Fibres:
     def _relations(self) -> list[FormRelation]:
         return [c.relation for c in self.system.conditions]
 
-    def _known(self, forms: Sequence[Fibre]) -> bool | None:
+    def _known(self, forms: Sequence[Quadratic]) -> bool | None:
         for k, witness in enumerate(self.witnesses):
             if self._solves(witness, forms):
                 self.witnesses.insert(0, self.witnesses.pop(k))  # neighbours ask for the same again
@@ -143,19 +124,16 @@ class Fibres:
                 return False
         return None
 
-    def _solves(self, witness: Values, forms: Sequence[Fibre]) -> bool:
-        near = [_rounded(w) for w in witness]
-        if any(form.near(near) > _CLEARLY for form in forms):
-            return False  # floats only say where the exact test is not worth its time
+    def _solves(self, witness: Values, forms: Sequence[Quadratic]) -> bool:
         for form, relation in zip(forms, self._relations, strict=True):
-            value = form.exact.value(witness)
+            value = form.value(witness)
             if value > 0 or (value == 0 and relation is FormRelation.LT) or (value and relation is FormRelation.EQ):
                 return False
         return True
 
-    def _convex(self, forms: Sequence[Fibre], parameters: Values) -> bool:
+    def _convex(self, forms: Sequence[Quadratic], parameters: Values) -> bool:
         if FormRelation.EQ not in self._relations:
-            witness, weights = proposed([form.exact for form in forms])
+            witness, weights = proposed(forms)
             if witness is not None and self._solves(witness, forms):
                 self.witnesses.insert(0, witness)
                 self._count("proposed")
@@ -166,7 +144,7 @@ class Fibres:
                 self._count("proposed")
                 return False
         try:
-            found = feasible([form.exact for form in forms], self._relations, budget=self.budget)
+            found = feasible(forms, self._relations, budget=self.budget)
             self._count("optimisation")
             return found
         except Unable:
@@ -191,19 +169,6 @@ class Spared:
         """None: no inequality is known that they all satisfy."""
 
 
-def _over(form: ParametricForm, parameters: Values) -> Fibre:
-    exact = form.at(parameters)
-    hessian = tuple(tuple(map(_rounded, row)) for row in exact.hessian)
-    return Fibre(exact, hessian, tuple(map(_rounded, exact.gradient)), _rounded(exact.constant))
-
-
-def _rounded(value: Fraction) -> float:
-    try:
-        return float(value)
-    except OverflowError:
-        return inf if value > 0 else -inf
-
-
 @dataclass(frozen=True, slots=True)
 class Separation:
     """Weights w_i >= 0 of the conditions whose sum has, over every point, the constant Hessian H of full rank.
@@ -215,9 +180,9 @@ class Separation:
     inverse: tuple[Values, ...]
 
     @staticmethod
-    def of(weights: Values, forms: Sequence[Fibre]) -> Separation | None:
+    def of(weights: Values, forms: Sequence[Quadratic]) -> Separation | None:
         """The separation with these weights, None where some are negative or the Hessian is singular."""
-        total = combine(weights, [form.exact for form in forms])
+        total = combine(weights, forms)
         size = total.size
         units = [[Fraction(i == j) for j in range(size)] for i in range(size)]
         columns = [solve_linear(total.hessian, unit, size) for unit in units]
@@ -225,15 +190,9 @@ class Separation:
             return None
         return Separation(weights, tuple(tuple(c.particular) for c in columns if c is not None))
 
-    def excludes(self, forms: Sequence[Fibre]) -> bool:
-        """Whether the weighted sum is positive everywhere: exactly, after a look at it in floats."""
-        size = len(self.inverse)
-        used = [(w, form) for w, form in zip(self.weights, forms, strict=True) if w]
-        b = [sum(_rounded(w) * form.gradient[j] for w, form in used) for j in range(size)]
-        c = sum(_rounded(w) * form.constant for w, form in used)
-        if c - sum(_rounded(v) * b[i] * b[j] for i, row in enumerate(self.inverse) for j, v in enumerate(row)) / 2 < 0:
-            return False
-        total = combine(self.weights, [form.exact for form in forms])
+    def excludes(self, forms: Sequence[Quadratic]) -> bool:
+        """Whether the weighted sum is positive everywhere."""
+        total = combine(self.weights, forms)
         lowest = [-sum((v * g for v, g in zip(row, total.gradient, strict=True)), Fraction(0)) for row in self.inverse]
         return bool(total.value(lowest) > 0)
 

@@ -94,6 +94,7 @@ class Differences:
         self.nearer: list[tuple[int, int, int]] = []
 
     def tell(self, literal: int) -> list[int] | None:
+        """A literal is true: literals that cannot hold together, or None."""
         edge = self.edges.get(literal)
         if edge is None:
             return None
@@ -107,9 +108,11 @@ class Differences:
         return None
 
     def settle(self) -> list[int] | None:
+        """The same for all that were told so far."""
         return None
 
     def implied(self) -> Iterator[tuple[int, Callable[[], list[int]]]]:
+        """Literals that follow from those told since the last call, each with those from which it does."""
         edges = len(self.graph.edges)
         for u, v, before in self.nearer:
             listed, now = self.watched[u, v], int(self.graph.length[u, v])
@@ -123,6 +126,7 @@ class Differences:
         return _literals(self.graph.reasons(u, v, edges))
 
     def mark(self) -> int:
+        """The present state, for ``back``."""
         return len(self.graph.edges)
 
     def back(self, mark: int) -> None:

@@ -7,42 +7,15 @@ point: nothing rests on the solver having been told of the right things at the r
 
 from __future__ import annotations
 
-from collections.abc import Callable, Container, Iterator, Sequence
-from fractions import Fraction
+from collections.abc import Callable, Container, Sequence
 from types import TracebackType
-from typing import Protocol
 
-from qe.elimination.search.linear_forms import Monomial
+from qe.elimination.search.linear_theories import Differences, Forms
 
 Literals = list[int]
 
 
-class LinearTheory(Protocol):
-    """Bounds, by the literals that say them."""
-
-    def tell(self, literal: int) -> Literals | None:
-        """A literal is true: literals that cannot hold together, or None."""
-        ...
-
-    def settle(self) -> Literals | None:
-        """The same for all that were told so far."""
-        ...
-
-    def implied(self) -> Iterator[tuple[int, Callable[[], Literals]]]:
-        """Literals that follow from those told since the last call, each with those from which it does."""
-        ...
-
-    def point(self) -> dict[Monomial, Fraction]:
-        """Values of monomials that keep all bounds."""
-        ...
-
-    def mark(self) -> int:
-        """The present state, for ``back``."""
-        ...
-
-    def back(self, mark: int) -> None:
-        """Go back to a state."""
-        ...
+LinearTheory = Differences | Forms
 
 
 class Propagator:

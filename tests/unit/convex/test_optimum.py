@@ -13,9 +13,10 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from qe.certify.verify import verify
-from qe.convex.kkt import Kkt, kkt_point, sign
+from qe.convex.kkt import Kkt, kkt_point
 from qe.convex.minimise import evidence_about, rational_numbers, solve
 from qe.convex.optimum import NotConvex, OptimumStatus, maximize, minimize
+from qe.convex.simplex import sign
 from qe.convex.strict import settle_strict
 from qe.convex.system import ConvexSystem, read_system
 from qe.errors import BudgetExceeded, InputError, Unable
