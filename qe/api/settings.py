@@ -188,8 +188,7 @@ class Elimination(Decision, total=False):
 @functools.cache
 def settings_in(kind: type) -> Mapping[str, tuple[Any, Setting]]:
     """The type and the rest of each setting in one of these classes."""
-    hints = {name: get_args(hint) for name, hint in get_type_hints(kind, include_extras=True).items()}
-    return {name: (hint, setting) for name, (hint, setting) in hints.items()}
+    return {name: get_args(hint) for name, hint in get_type_hints(kind, include_extras=True).items()}
 
 
 def with_settings(kind: type) -> Callable[[Callable[P, Result]], Callable[P, Result]]:

@@ -24,11 +24,7 @@ from qe.cli.source import ProofFormat, Reply, Request, Source, called, no_file, 
 from qe.io.formats import READABLE, Format
 from qe.options import VERIFY_SECONDS
 
-app = typer.Typer(
-    pretty_exceptions_enable=False,
-    rich_markup_mode=None,
-    help="Exact real quantifier elimination. FORMULA is text ('ex x. x^2 + b*x + c = 0'), a file, or - for stdin.",
-)
+app = typer.Typer(pretty_exceptions_enable=False, rich_markup_mode=None)
 
 WORK, REGION = "qe.cli.work", "qe.cli.region"
 """Modules that are loaded where the work is done."""

@@ -100,10 +100,7 @@ def _lines(best: Optimum | GlobalOptimum, extreme: str) -> list[str]:
         beyond = "below" if best.value > best.bound else "above"
         lines.append(f"no point has one {beyond} {shown(best.bound)}; the exact numbers are out of reach")
     several = () if isinstance(best, Optimum) or len(best.points) < 2 else best.points
-    for point in several:
-        lines.append(f"at {', '.join(_values(point))}")
-    if not several:
-        lines += _values(best.point)
+    lines += [f"at {', '.join(_values(point))}" for point in several] or _values(best.point)
     if isinstance(best, Optimum):
         lines.append(f"active: {', '.join(best.constraints[i] for i in best.active) or 'nothing'}")
     elif best.points:

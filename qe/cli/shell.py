@@ -313,7 +313,11 @@ def limited(
     from qe.processes.portable import portable
 
     grace, known = 0.0 if timeout is None else remaining(timeout) - timeout + grace_of(timeout), Known()
-    at_once = text is None or timeout is not None or _may_block(text)
+    at_once = text is None or timeout is not None
+    if text is not None and not at_once:
+        from qe.formula.features import text_may_block  # with what work in this process needs
+
+        at_once = text_may_block(text)
     with Display(wanted=not plain, lines=lines) as display:
         limits = Limits(timeout, memory, display)
         try:
@@ -323,12 +327,6 @@ def limited(
         finally:
             if NOTE in known.facts:
                 warnings.warn(str(known.facts[NOTE]), DoubtfulInput, stacklevel=2)
-
-
-def _may_block(text: str) -> bool:
-    from qe.formula.features import text_may_block  # with what work in this process needs
-
-    return text_may_block(text)
 
 
 def _with_doubts(work: Callable[[Channel], T], channel: Channel) -> T:

@@ -10,7 +10,6 @@ import io
 import re
 import sys
 from collections.abc import Callable, Iterable, Iterator, Sequence
-from dataclasses import dataclass
 from fractions import Fraction
 from functools import partial
 from typing import TYPE_CHECKING, Any, TextIO, cast
@@ -38,22 +37,6 @@ _INFO = {
     ":authors": '"the bezier-qe authors"',
     ":error-behavior": "continued-execution",
 }
-
-
-@dataclass(frozen=True, slots=True)
-class FailingBehind:
-    """Errors of a text that starts at this line and column (from 0) of another one."""
-
-    place: Failing
-    line: int
-    column: int
-
-    def __call__(self, message: str, at: int) -> ParseError:
-        error = self.place(message, at)
-        if error.line == 1:
-            error.column += self.column
-        error.line += self.line
-        return error
 
 
 class Solver(Checks):
@@ -111,7 +94,7 @@ class Solver(Checks):
 
     def execute(self, text: str, source: str, line: int = 0, column: int = 0) -> None:
         """Answer the command that is a text, which starts at this line and column (from 0) of ``source``."""
-        fail = FailingBehind(Failing(text, source), line, column)
+        fail = Failing(text, source, line, column)
         self.script.fail = fail
         self.begin()
         read = _READ.match(text)

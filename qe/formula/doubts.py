@@ -4,10 +4,10 @@ from __future__ import annotations
 
 import re
 from collections import Counter
-from collections.abc import Collection, Iterable, Iterator, Sequence
+from collections.abc import Collection, Iterable, Sequence
 
-from qe.formula.syntax import Exists, ForAll, Formula
-from qe.formula.traverse import children
+from qe.formula.syntax import Formula, Quantified
+from qe.formula.traverse import subformulas
 from qe.spelling import WORD, is_product
 
 _NUMBERS = ("e", "i", "E", "I")
@@ -24,7 +24,8 @@ def doubts(formula: Formula, text: str = "", format: str = "", solved: Sequence[
     ``solved``: the variables for which it is to be solved, which are to occur like those of a quantifier."""
     typed = text if format == "text" and "\\" not in text else ""  # in LaTeX letters side by side are a product
     names = formula.ring.names if formula.ring is not None else ()
-    blocks = [(block.variables, block.body.free) for block in _blocks(formula)]
+    parts = subformulas(formula) if formula.bound else ()
+    blocks = [(part.variables, part.body.free) for part in parts if isinstance(part, Quantified)]
     unused: dict[str, None] = {}
     joined: dict[str, str] = {}
     for variables, free in (*blocks, (solved, formula.free)):
@@ -87,12 +88,3 @@ def numbers_as_names(free: Iterable[str], text: str, names: Iterable[str] = ()) 
     ]
     verb = "is a variable here, no number" if len(doubtful) == 1 else "are variables here, no numbers"
     return (f"{' and '.join(doubtful)} {verb}",) if doubtful else ()
-
-
-def _blocks(formula: Formula) -> Iterator[Exists | ForAll]:
-    if formula.is_quantifier_free:
-        return
-    if isinstance(formula, Exists | ForAll):
-        yield formula
-    for child in children(formula):
-        yield from _blocks(child)

@@ -16,20 +16,12 @@ SMALL_DEGREE = {1: 40, 2: 12, 3: 4, 4: 2}
 
 def is_small(formula: Formula, degrees: Mapping[int, int] = SMALL_DEGREE) -> bool:
     """Whether a shorter equivalent is easily found, if there is one: few variables and low ``degrees``."""
-    if not any(isinstance(part, Or) for part in subformulas(formula)) and not _overlaps(formula):
+    polys, count = [a.poly for a in atoms(formula)], len(formula.free)
+    curved = count == 2 and any(len(p.variables) == 2 and p.total_degree > 1 for p in polys)
+    # with a curve in the plane, an atom of a conjunction may follow from the others
+    if not (curved and len(polys) > 1) and not any(isinstance(part, Or) for part in subformulas(formula)):
         return False
-    degree = max((a.poly.total_degree for a in atoms(formula)), default=0)
-    return degree <= degrees.get(len(formula.free), 0)
-
-
-def _overlaps(formula: Formula) -> bool:
-    """Whether an atom of a conjunction may follow from the others: a curve in the plane, and more than one atom."""
-    listed = list(atoms(formula))
-    return (
-        len(listed) > 1
-        and len(formula.free) == 2
-        and any(len(a.poly.variables) == 2 and a.poly.total_degree > 1 for a in listed)
-    )
+    return max((p.total_degree for p in polys), default=0) <= degrees.get(count, 0)
 
 
 def is_short(formula: Formula, terms: int) -> bool:

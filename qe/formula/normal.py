@@ -9,7 +9,7 @@ from typing import assert_never
 from qe.exact.ring import Poly, Ring
 from qe.formula.build import atom, conj, disj, exists, forall, map_children, neg, root_atom
 from qe.formula.syntax import And, Atom, Atomic, Constant, Exists, ForAll, Formula, Not, Or, Quantified, RootAtom
-from qe.formula.traverse import children, clashes, map_atoms
+from qe.formula.traverse import children, clashes, map_atoms, subformulas
 
 
 class Quantifier(StrEnum):
@@ -90,17 +90,13 @@ class _Renaming:
     def plan(self, formula: Formula) -> list[str]:
         """The new names of all bound variables, in the order in which ``apply`` will ask for them."""
         chosen: list[str] = []
-        self._plan(formula, chosen)
+        for part in subformulas(formula):
+            if isinstance(part, Exists | ForAll):
+                free = frozenset(part.body.free)
+                chosen += [self._choose(name) if name in free else "" for name in part.variables]
         self.target = Ring.of([*self.ring.names, *self.fresh]) if self.fresh else self.ring
         chosen.reverse()
         return chosen
-
-    def _plan(self, formula: Formula, chosen: list[str]) -> None:
-        if isinstance(formula, Exists | ForAll):
-            free = frozenset(formula.body.free)
-            chosen += [self._choose(name) if name in free else "" for name in formula.variables]
-        for child in children(formula):
-            self._plan(child, chosen)
 
     def _choose(self, name: str) -> str:
         if name not in self.used:

@@ -7,9 +7,11 @@ The guards of a case make sure that its denominators are not zero.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Sequence
 from fractions import Fraction
+from functools import reduce
 from itertools import product
+from operator import mul
 from typing import NamedTuple, TypeAlias
 
 from qe.exact.ring import Poly
@@ -47,19 +49,6 @@ def guarded(guards: Sequence[Formula], case: Case) -> Cases:
     return () if joined is None else (Case(joined, case.value, case.below),)
 
 
-def combinations(operands: Sequence[Cases]) -> Iterator[tuple[tuple[Formula, ...], tuple[Case, ...]]]:
-    """One case of each operand, with all their guards, in every way that is not contradictory at sight."""
-    for choice in product(*operands):
-        guards: tuple[Formula, ...] = ()
-        for case in choice:
-            joined = _joined(guards, case.guards)
-            if joined is None:
-                break
-            guards = joined
-        else:
-            yield guards, choice
-
-
 def _joined(left: Sequence[Formula], right: Sequence[Formula]) -> tuple[Formula, ...] | None:
     """The guards of both together, without those that say nothing; None where one is false or another's negation."""
     guards = dict.fromkeys(guard for guard in left if guard != TRUE)
@@ -72,8 +61,14 @@ def _joined(left: Sequence[Formula], right: Sequence[Formula]) -> tuple[Formula,
 
 
 def combine(operands: Sequence[Cases], build: Callable[[Sequence[Case]], Case]) -> Cases:
-    """``build`` applied to the operands, in every combination of their cases."""
-    return tuple(case for guards, choice in combinations(operands) for case in guarded(guards, build(choice)))
+    """``build`` applied to the operands, in every combination of their cases that is not contradictory at sight."""
+    made: list[Case] = []
+    for choice in product(*operands):
+        guards: tuple[Formula, ...] | None = ()
+        for case in choice:
+            guards = None if guards is None else _joined(guards, case.guards)
+        made += () if guards is None else guarded(guards, build(choice))
+    return tuple(made)
 
 
 def negative(case: Case) -> Case:
@@ -130,15 +125,12 @@ def power(case: Case, exponent: int) -> Case:
 
 def holds(case: Case, relation: Relation) -> Formula:
     """``guards and case relation 0``."""
-    odd = None
-    for factor, k in case.below:
-        if k % 2:
-            odd = factor if odd is None else odd * factor
-    if odd is None or relation in (Relation.EQ, Relation.NE):
+    odd = [factor for factor, k in case.below if k % 2]
+    if not odd or relation in (Relation.EQ, Relation.NE):
         return conj((*case.guards, atom(case.value.poly, relation)))
-    implied = {Atom(factor, Relation.NE) for factor, k in case.below if k % 2}
-    above = conj((atom(odd, Relation.GT), atom(case.value.poly, relation)))
-    under = conj((atom(odd, Relation.LT), atom(case.value.poly, relation.flipped)))
+    below, implied = reduce(mul, odd), {Atom(factor, Relation.NE) for factor in odd}
+    above = conj((atom(below, Relation.GT), atom(case.value.poly, relation)))
+    under = conj((atom(below, Relation.LT), atom(case.value.poly, relation.flipped)))
     return conj((*(guard for guard in case.guards if guard not in implied), disj((above, under))))
 
 

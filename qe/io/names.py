@@ -45,36 +45,25 @@ def bound_names(variables: object) -> tuple[str, ...]:
     return tuple(map(check_name, bound))
 
 
-class Renaming:
+def renaming(
+    formula: Formula, *, keeps: Callable[[str], bool], spell: Callable[[str], str], filler: str = "_"
+) -> dict[str, str]:
     """An injective map from the names of a formula to names that a format allows.
 
     A name that ``keeps`` accepts stays. Any other is rewritten by ``spell`` and then given as many ``filler`` letters
     as it takes to be allowed and new, so two different variables never become one.
     """
-
-    __slots__ = ("_map",)
-
-    def __init__(
-        self,
-        formula: Formula,
-        *,
-        keeps: Callable[[str], bool],
-        spell: Callable[[str], str] = lambda name: name,
-        filler: str = "_",
-    ) -> None:
-        names = names_in(formula)
-        self._map = {name: name for name in names if keeps(name)}
-        used = set(self._map)
-        for name in names:
-            if name not in self._map:
-                new = spell(name)
-                while not keeps(new) or new in used:
-                    new += filler
-                self._map[name] = new
-                used.add(new)
-
-    def __getitem__(self, name: str) -> str:
-        return self._map[name]
+    names = names_in(formula)
+    new_names = {name: name for name in names if keeps(name)}
+    used = set(new_names)
+    for name in names:
+        if name not in new_names:
+            new = spell(name)
+            while not keeps(new) or new in used:
+                new += filler
+            new_names[name] = new
+            used.add(new)
+    return new_names
 
 
 def names_in(formula: Formula) -> list[str]:

@@ -8,7 +8,7 @@ a dot, and commands, of which ``assume [ a > 0 ]`` says what the question is ask
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from typing import ClassVar
 
 from qe.exact.ring import Poly
@@ -19,7 +19,7 @@ from qe.formula.syntax import TRUE, Formula, Relation
 from qe.io import parser as p
 from qe.io import surface as s
 from qe.io.lowering import lower
-from qe.io.names import Renaming
+from qe.io.names import renaming
 from qe.io.parser import FORMULA, TERM, Infix, Parser, Prefix, Waiting, parsed
 from qe.io.text_errors import Failing
 from qe.io.text_quantifiers import quantified
@@ -140,7 +140,7 @@ def write(formula: Formula) -> str:
     prefix, matrix = prenex(formula)
     free = (matrix if not prefix else formula).free
     order = [*free, *(name for _, block in prefix for name in block)]
-    names = Renaming(matrix, keeps=_allowed, spell=lambda name: re.sub(r"[^A-Za-z0-9]", "", f"v{name}"), filler="v")
+    names = renaming(matrix, keeps=_allowed, spell=lambda name: re.sub(r"[^A-Za-z0-9]", "", f"v{name}"), filler="v")
     quantifiers = "".join(
         f"({'E' if kind is Quantifier.EXISTS else 'A'} {names[name]})" for kind, block in prefix for name in block
     )
@@ -153,7 +153,7 @@ def _allowed(name: str) -> bool:
     return re.fullmatch(r"[A-Za-z][A-Za-z0-9]*", name) is not None and name not in ("TRUE", "FALSE")
 
 
-def _notation(names: Renaming) -> Notation:
+def _notation(names: Mapping[str, str]) -> Notation:
     def root(variable: str, relation: Relation, poly: Poly, k: int) -> str:
         return f"{names[variable]} {relation.value} _root_{k} {polynomial(positive(poly), notation)}"
 

@@ -17,7 +17,7 @@ from qe.formula.build import conj
 from qe.formula.notation import Notation
 from qe.formula.syntax import Formula, Relation
 from qe.io.lowering import lower
-from qe.io.names import Renaming, check_name
+from qe.io.names import check_name, renaming
 from qe.io.parser import FORMULA, INFIX, NOT, PREFIX, REPLIED, Prefix, parsed
 from qe.io.substitution import over_one_ring
 from qe.io.text_errors import Failing, SyntaxFailure
@@ -128,7 +128,7 @@ class _Parser(QuantifiedParser):
 
 def write(formula: Formula) -> str:
     """One line that Redlog reads. Raises ``InputError`` for a root atom, which Redlog has no text for."""
-    names = Renaming(formula, keeps=_allowed, spell=lambda name: re.sub(r"[^A-Za-z0-9]", "_", f"v{name}"))
+    names = renaming(formula, keeps=_allowed, spell=lambda name: re.sub(r"[^A-Za-z0-9]", "_", f"v{name}"))
 
     def spelled(name: str) -> str:
         return _CAPITAL.sub(r"!\g<0>", names[name])

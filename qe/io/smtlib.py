@@ -13,13 +13,13 @@ from __future__ import annotations
 import re
 from collections.abc import Mapping
 from itertools import takewhile
-from typing import Any, TypeAlias, cast
+from typing import Any, cast
 
 from qe.errors import InputError, ParseError
 from qe.formula.notation import Monomial, digits, oriented
 from qe.formula.syntax import TRUE, And, Atom, Constant, Exists, ForAll, Formula, Not, Or, Relation
 from qe.formula.traverse import children
-from qe.io.names import Renaming, names_in
+from qe.io.names import renaming
 from qe.io.smtlib_parser import SYMBOL, Expression, parse
 from qe.io.smtlib_script import Script
 from qe.io.surface import MAX_DEPTH
@@ -34,8 +34,6 @@ _RESERVED = re.compile(
 )
 _UNWRITABLE = re.compile(r"[\x00-\x08\x0b\x0c\x0e-\x1f\x7f|\\]")
 """What a quoted symbol cannot hold (SMT-LIB 2.6, section 3.1): control characters, bars, backslashes."""
-
-Names: TypeAlias = Renaming | Mapping[str, str]
 
 _OPERATORS = {Relation.EQ: "=", Relation.LT: "<", Relation.LE: "<=", Relation.GT: ">", Relation.GE: ">="}
 
@@ -93,15 +91,19 @@ def write(formula: Formula) -> str:
     Names that SMT-LIB keeps for itself or cannot write get ``v_`` in front; others are quoted where needed. Raises
     ``InputError`` for a root atom, which SMT-LIB cannot express.
     """
-    names = Renaming(formula, keeps=_allowed, spell=lambda name: f"v_{_UNWRITABLE.sub('_', name)}")
+    names = _allowed_names(formula)
     lines = [f"(set-logic {'QF_NRA' if formula.is_quantifier_free else 'NRA'})"]
     lines += [f"(declare-const {symbol(names[name])} Real)" for name in formula.free]
     lines.append(f"(assert {_term(formula, names)})")
     return "\n".join(lines) + "\n"
 
 
-def _allowed(name: str) -> bool:
-    return not _RESERVED.fullmatch(name) and not _UNWRITABLE.search(name)
+def _allowed_names(formula: Formula) -> dict[str, str]:
+    return renaming(
+        formula,
+        keeps=lambda name: not _RESERVED.fullmatch(name) and not _UNWRITABLE.search(name),
+        spell=lambda name: f"v_{_UNWRITABLE.sub('_', name)}",
+    )
 
 
 def symbol(name: str) -> str:
@@ -111,11 +113,10 @@ def symbol(name: str) -> str:
 
 def term(formula: Formula, symbols: Mapping[str, str]) -> str:
     """The formula as a term; ``symbols`` gives the symbols of its free names."""
-    names = Renaming(formula, keeps=_allowed, spell=lambda name: f"v_{_UNWRITABLE.sub('_', name)}")
-    return _term(formula, {name: symbols.get(name) or names[name] for name in names_in(formula)})
+    return _term(formula, {name: symbols.get(name) or new for name, new in _allowed_names(formula).items()})
 
 
-def _term(formula: Formula, names: Names) -> str:
+def _term(formula: Formula, names: Mapping[str, str]) -> str:
     match formula:
         case Constant(value):
             return "true" if value else "false"
@@ -134,12 +135,12 @@ def _term(formula: Formula, names: Names) -> str:
     raise InputError("root(…) cannot be written in SMT-LIB")
 
 
-def _polynomial(parts: list[Monomial], names: Names) -> str:
+def _polynomial(parts: list[Monomial], names: Mapping[str, str]) -> str:
     texts = [_monomial(coefficient, powers, names) for coefficient, powers in parts]
     return texts[0] if len(texts) == 1 else f"(+ {' '.join(texts)})"
 
 
-def _monomial(coefficient: int, powers: tuple[tuple[str, int], ...], names: Names) -> str:
+def _monomial(coefficient: int, powers: tuple[tuple[str, int], ...], names: Mapping[str, str]) -> str:
     factors = [written for name, k in powers for written in [symbol(names[name])] * k]
     if coefficient != 1 or not factors:
         factors.insert(0, digits(coefficient) if coefficient >= 0 else f"(- {digits(-coefficient)})")

@@ -36,14 +36,17 @@ class SyntaxFailure(Exception):
 
 @dataclass(frozen=True, slots=True)
 class Failing:
-    """Makes errors about an offset of ``text``, which ``source`` names."""
+    """Makes errors about an offset of ``text``, which begins at this line and column (from 0) of ``source``."""
 
     text: str
     source: str
+    line: int = 0
+    column: int = 0
 
     def __call__(self, message: str, at: int, expected: str = "") -> ParseError:
         line, column = position(self.text, max(at, 0))
-        return ParseError(message, source=self.source, line=line, column=column, expected=expected)
+        column += self.column if line == 1 else 0
+        return ParseError(message, source=self.source, line=line + self.line, column=column, expected=expected)
 
 
 def position(text: str, at: int) -> tuple[int, int]:
