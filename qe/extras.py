@@ -9,19 +9,11 @@ from qe.errors import Unable
 
 _EXTRAS = {
     "clarabel": "squares",
-    "dask": "sweep",
-    "distributed": "sweep",
     "highspy": "linear",
-    "jinja2": "plan",
-    "markupsafe": "plan",
-    "matplotlib": "pictures",
-    "mpl_toolkits": "pictures",
-    "networkx": "plan",
-    "numpy": "pictures",
-    "pyarrow": "sweep",
+    **dict.fromkeys(("matplotlib", "mpl_toolkits", "numpy"), "pictures"),
+    **dict.fromkeys(("jinja2", "markupsafe", "networkx", "scipy", "trimesh"), "plan"),
     "pysat": "sat",
-    "scipy": "plan",
-    "trimesh": "plan",
+    **dict.fromkeys(("dask", "distributed", "pyarrow"), "sweep"),
     "yourdfpy": "robots",
     "z3": "solvers",
 }

@@ -79,10 +79,9 @@ def simplify(formula: AnyFormula, **settings: Unpack[ProvedQuestion]) -> Answer:
 
 
 def answered_under(
-    problem: Formula | Posed, order: tuple[str, ...] | None, settings: Search, limits: Limits, *, anytime: bool = False
+    problem: Posed, order: tuple[str, ...] | None, settings: Search, limits: Limits, *, anytime: bool = False
 ) -> Answer:
     """The answer to a question that has been read; ``order`` is that of the settings, of its variables alone."""
-    problem = problem if isinstance(problem, Posed) else Posed(problem)
     check, methods = settings["check"], cast(frozenset[Method], settings["race"])
     options = Options(
         method=Method(settings["method"]),

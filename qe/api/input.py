@@ -40,8 +40,7 @@ def read_formula(given: AnyFormula, format: str = "text", total_division: bool =
 
     ``total_division``: what text says of a division by zero (see ``qe.io.text.read``); other shapes know it already.
     """
-    formula, known = read_posed(given, format, total_division)
-    return formula if known == TRUE else conj(over_one_ring(known, formula))
+    return conj(over_one_ring(*reversed(read_posed(given, format, total_division))))
 
 
 def read_posed(given: AnyFormula, format: str = "text", total_division: bool = False) -> Read:

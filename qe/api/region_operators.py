@@ -8,6 +8,7 @@ from collections.abc import Mapping
 from dataclasses import replace
 from fractions import Fraction
 from functools import partial
+from math import prod
 from typing import Any, TypeVar
 
 from qe import arguments
@@ -128,9 +129,7 @@ def distance(region: Region, point: object, timeout: float | None) -> Number:
         raise InputError(f"point: a value for {missing[0]} expected")
     irrational = {v: a for v, a in given.items() if isinstance(a, RealAlgebraic)}
     ring = Ring.of([*region.order, *(f"at {v}" for v in irrational)])
-    square, scale = ring.constant(0), 1
-    for q in given.values():
-        scale *= q.denominator if isinstance(q, Fraction) else 1
+    square, scale = ring.constant(0), prod(q.denominator for q in given.values() if isinstance(q, Fraction))
     for v, q in given.items():
         x = ring.var(v)
         apart = x - ring.var(f"at {v}") if isinstance(q, RealAlgebraic) else x * q.denominator - q.numerator

@@ -14,7 +14,7 @@ import threading
 import time
 import warnings
 from collections.abc import Callable, Iterator, Sequence
-from contextlib import contextmanager
+from contextlib import AbstractContextManager, contextmanager
 from copy import copy
 from difflib import get_close_matches
 from functools import partial
@@ -258,7 +258,7 @@ def is_live(stream: TextIO) -> bool:
     return stream.isatty() and not os.environ.get("NO_COLOR") and os.environ.get("TERM") not in ("dumb", "unknown")
 
 
-class Display:
+class Display(AbstractContextManager["Display"]):
     """A progress line on stderr; where none can be drawn, with ``lines`` a line now and then, else nothing."""
 
     def __init__(self, *, wanted: bool = True, lines: bool = False) -> None:
@@ -267,9 +267,6 @@ class Display:
         self._said = -LINES_APART
         self._start = time.monotonic()
         self._status: Any = None
-
-    def __enter__(self) -> Display:
-        return self
 
     def __exit__(self, *exc: object) -> None:
         if self._status is not None:

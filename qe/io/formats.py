@@ -63,10 +63,8 @@ def read(
     Raises ``InputError`` (with line and column where the text is wrong).
     """
     from qe.formula.build import conj
-    from qe.formula.syntax import TRUE
 
-    formula, known = read_posed(text, format, source=source, total_division=total_division)
-    return formula if known == TRUE else conj((known, formula))
+    return conj(reversed(read_posed(text, format, source=source, total_division=total_division)))
 
 
 def read_posed(

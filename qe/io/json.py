@@ -35,13 +35,11 @@ def write(formula: Formula) -> str:
 def read(text: str, *, source: str = "<text>") -> Formula:
     """The formula of a JSON text. Raises ``InputError`` naming what is wrong."""
     try:
-        data = json.loads(text)
+        return decode(json.loads(text))
     except json.JSONDecodeError as error:
         raise InputError(f"{source}:{error.lineno}:{error.colno}: not JSON: {error.msg}") from None
     except (RecursionError, ValueError):
         raise InputError(f"{source}: not JSON of a formula") from None
-    try:
-        return decode(data)
     except InputError as error:
         raise InputError(f"{source}: {error}") from None
 

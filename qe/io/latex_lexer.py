@@ -12,7 +12,7 @@ from collections.abc import Generator, Iterator
 from qe.io.surface import FUNCTIONS
 from qe.io.text_errors import SyntaxFailure, unknown_function, way_out
 from qe.io.text_lexer import OPERAND_ENDS, State
-from qe.io.tokens import SIGNS, Token
+from qe.io.tokens import SIGNS, Token, kinds
 from qe.spelling import NUMERALS, PI, QUOTED, visible
 
 _COMMANDS = {
@@ -45,15 +45,7 @@ _COMMANDS = {
     "rvert": ("CLOSEBAR", "|"),
     "vert": ("BAR", "|"),
 }
-_SIGNS = {
-    **dict.fromkeys("=<>", "RELATION"),
-    **SIGNS,
-    "[": "LEFT",
-    "]": "RIGHT",
-    ".": "DOT",
-    ":": "DOT",
-    "|": "BAR",
-}
+_SIGNS = {**SIGNS, **kinds("RELATION = < >\nLEFT [\nRIGHT ]\nDOT . :\nBAR |")}
 _NEGATED = {"=": "/=", "<": ">=", ">": "<=", "\\le": ">", "\\leq": ">", "\\ge": "<", "\\geq": "<", "\\in": "∉"}
 _SPACES = frozenset((",", ";", ":", "!", " ", "quad", "qquad", "thinspace"))
 _SKIPPED = frozenset(("left", "right", "big", "Big", "bigl", "bigr", "Bigl", "Bigr", "displaystyle", "limits", "\\"))

@@ -24,14 +24,7 @@ LINE = 72
 
 _LETTERS = dict(zip(sorted(GREEK), "αβχδεηγικλμνωφπψρστθυξζ"))
 _NAME = re.compile(r"([^\W\d_]+)_?(\d*)('*)")
-_RELATIONS = {
-    Relation.EQ: "=",
-    Relation.NE: "≠",
-    Relation.LT: "&lt;",
-    Relation.LE: "≤",
-    Relation.GT: "&gt;",
-    Relation.GE: "≥",
-}
+_RELATIONS = {Relation.NE: "≠", Relation.LE: "≤", Relation.GE: "≥"}
 _BARE = re.compile(r"(<m[ino]\b[^>]*>.*?</m[ino]>|<[^>]*>)|([0-9]+)|\s*([-+])\s*|\s+")
 """What is an element already, or a number, a sign, or a space between elements."""
 
@@ -150,7 +143,7 @@ def _notation(draw: Draw) -> Notation:
 
     made = Notation(
         name=draw,
-        relation=lambda relation: f"<mo>{_RELATIONS[relation]}</mo>",
+        relation=lambda relation: f"<mo>{_RELATIONS.get(relation) or escape(relation.value)}</mo>",
         quantifier=quantifier,
         root=root,
         conjunction=_AND,

@@ -167,7 +167,9 @@ class _Helpers:
                     return
                 made = self._result(*running[0], check)
                 running.popleft()
-                self._adapt(made)
+                if made.count:  # so many fit into the next batch
+                    fitting = int(BATCH * made.count / max(made.seconds, 1e-9))
+                    self._size = max(1, min(fitting, 2 * made.count, LARGEST))
                 yield from made.results
                 if made.error is not None:
                     raise made.error
@@ -190,12 +192,6 @@ class _Helpers:
                 break
             return found
         return _together(batch)
-
-    def _adapt(self, made: _Made) -> None:
-        """How many calls the next batches have."""
-        if made.count:
-            fitting = int(BATCH * made.count / max(made.seconds, 1e-9))
-            self._size = max(1, min(fitting, 2 * made.count, LARGEST))
 
 
 @contextmanager
