@@ -122,8 +122,7 @@ def _limited(
     cluster: Cluster | None,
     methods: Iterable[Method] = (),
 ) -> Answer:
-    """The answer, found in a worker process where it takes long or a limit is to hold; with ``methods`` the first one
-    that one of them has."""
+    """The answer, from a worker where it takes long or a limit is to hold; with ``methods`` the first that one has."""
     try:
         if methods:
             return raced(partial(_answer_by, problem, options, check), methods, limits)
@@ -184,8 +183,7 @@ def decided(sentence: Formula, options: Options, budget: Budget) -> Answer:
 
 
 def instance(answer: Answer, given: Formula) -> ExactPoint | None:
-    """The values of the free variables of a formula that an answer, whether there are any, comes with; None: there are
-    none."""
+    """The values of a formula's free variables that the answer whether there are any has; None: there are none."""
     if answer.truth is False:
         return None
     if answer.witness is None and given.free:

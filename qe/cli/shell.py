@@ -113,8 +113,7 @@ def enter(app: typer.Typer, argv: Sequence[str] | None, *, name: str) -> int:
 
 
 def _asked(app: typer.Typer, words: Sequence[str]) -> Any:
-    """The commands of an app, or the one alone that the first word names: to build all takes longer than many a
-    problem."""
+    """The commands of an app, or the one alone that the first word names: to build all takes long."""
     names = (one.name or get_command_name(one.callback.__name__) for one in app.registered_commands if one.callback)
     named = [one for one, name in zip(app.registered_commands, names) if [name] == [*words[:1]]]
     if named and app.registered_callback:  # without one, typer makes a single command of it

@@ -111,8 +111,7 @@ class Request:
 
 
 def read_question(channel: Channel, source: Source, *, solved: Sequence[str] = ()) -> tuple[Formula, Formula]:
-    """The formula of a source, to be ``solved`` for these, and what it assumes; its size is the first thing to be known
-    about the run."""
+    """The formula of a source, to be ``solved`` for these, and what it assumes; the channel is told of its size."""
     from qe.api.input import note_doubts
     from qe.formula.traverse import atoms, bound_variables
 

@@ -68,8 +68,7 @@ def sides(poly: Poly, relation: Relation) -> Side:
 
 
 def _oriented(poly: Poly, relation: Relation) -> tuple[list[Monomial], Relation, list[Monomial]]:
-    """The monomials and the relation of ``poly relation 0``, and those monomials that are no number, of which the first
-    is positive."""
+    """The monomials and the relation of ``poly relation 0``, and the monomials without numbers, the first positive."""
     parts, relation = oriented(poly, relation)
     terms = [part for part in parts if part[1]]
     if numbers := {*NUMBERS}.intersection(poly.ring.names):

@@ -71,8 +71,7 @@ def without_clashes(formula: Formula) -> Formula:
 
 
 def matrix_of(formula: Formula) -> Formula:
-    """The formula with its quantifiers left out: what they bind is free then, and of a formula without atoms nothing
-    is lost."""
+    """The formula without its quantifiers: what they bind is free then, and without atoms nothing is lost."""
     return matrix_of(formula.body) if isinstance(formula, Quantified) else map_children(formula, matrix_of)
 
 

@@ -70,8 +70,7 @@ def read(
 def read_posed(
     text: str, format: str | Format = Format.TEXT, *, source: str = "<text>", total_division: bool = False
 ) -> tuple[Formula, Formula]:
-    """As ``read``; what the text assumes (``assume`` of QEPCAD, a theory of Redlog) by itself, TRUE without; over one
-    ring."""
+    """As ``read``; over the same ring what the text assumes (in QEPCAD, a theory of Redlog), TRUE without."""
     from qe.formula.syntax import TRUE
 
     chosen = checked(format)

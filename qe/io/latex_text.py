@@ -3,25 +3,16 @@
 from __future__ import annotations
 
 from collections import Counter
-from enum import IntEnum
 from fractions import Fraction
 from functools import reduce
 
 from qe.errors import InputError
 from qe.io import latex
 from qe.io import surface as s
+from qe.io.parser import BRACKET, POWER, PRODUCT, SUM
 from qe.io.text import read_node, read_term
 
 _ROOTS = {"sqrt": r"\sqrt{{{}}}", "cbrt": r"\sqrt[3]{{{}}}", "abs": r"\left|{}\right|"}
-
-
-class _Binds(IntEnum):
-    """How tightly what stands around a term binds."""
-
-    OPEN = 0
-    SUM = 1
-    PRODUCT = 2
-    POWER = 3
 
 
 def term_in_latex(text: str) -> str:
@@ -34,35 +25,35 @@ def formula_in_latex(text: str) -> str:
     return _node(read_node(text))
 
 
-def _term(term: s.Term, around: _Binds = _Binds.OPEN) -> str:
-    """A term, in brackets where what stands around it binds as tightly."""
+def _term(term: s.Term, around: int = BRACKET) -> str:
+    """A term, in brackets where what stands ``around`` it, by its level, binds as tightly."""
     match term:
         case s.Name(name):
             return latex.name(name)
         case s.Number(value) if value < 0:
-            return _bracketed(f"-{_number(-value)}", around > _Binds.OPEN)
+            return _bracketed(f"-{_number(-value)}", around > BRACKET)
         case s.Number(value):
-            return _bracketed(_number(value), around is _Binds.POWER and value.denominator > 1)
+            return _bracketed(_number(value), around == POWER and value.denominator > 1)
         case s.Polynomial(terms):
             parts: list[s.Term] = [_monomial(names, c) for names, c in terms.items()]
             return _term(s.Sum(parts) if len(parts) > 1 else parts[0], around)
         case s.Minus(part):
-            return _bracketed(f"-{_term(part, _Binds.SUM)}", around > _Binds.OPEN)
+            return _bracketed(f"-{_term(part, SUM)}", around > BRACKET)
         case s.Sum(parts):
             first, *rest = (_term(part) for part in parts)
             text = first + "".join(f" - {t[1:]}" if t.startswith("-") else f" + {t}" for t in rest)
-            return _bracketed(text, around > _Binds.OPEN)
+            return _bracketed(text, around > BRACKET)
         case s.Product(left, right):
-            text = rf"{_term(left, _Binds.SUM)}\,{_term(right, _Binds.PRODUCT)}"
-            return _bracketed(text, around is _Binds.POWER)
+            text = rf"{_term(left, SUM)}\,{_term(right, PRODUCT)}"
+            return _bracketed(text, around == POWER)
         case s.Quotient(left, right):
-            return _bracketed(rf"\frac{{{_term(left)}}}{{{_term(right)}}}", around is _Binds.POWER)
+            return _bracketed(rf"\frac{{{_term(left)}}}{{{_term(right)}}}", around == POWER)
         case s.Power(base, s.Quotient(s.Number(1), s.Number(n))):
-            return _bracketed(rf"\sqrt[{n}]{{{_term(base)}}}", around is _Binds.POWER)
+            return _bracketed(rf"\sqrt[{n}]{{{_term(base)}}}", around == POWER)
         case s.Power(base, exponent):
-            return _bracketed(f"{_term(base, _Binds.POWER)}^{{{_term(exponent)}}}", around is _Binds.POWER)
+            return _bracketed(f"{_term(base, POWER)}^{{{_term(exponent)}}}", around == POWER)
         case s.Apply(function, [part]) if function in _ROOTS:
-            return _bracketed(_ROOTS[function].format(_term(part)), around is _Binds.POWER)
+            return _bracketed(_ROOTS[function].format(_term(part)), around == POWER)
         case s.Root(number, poly, variable):
             inside = _term(poly) + (f", {latex.name(variable)}" if variable else "")
             return rf"\operatorname{{root}}_{{{_term(number)}}}\left({inside}\right)"

@@ -90,8 +90,7 @@ def _lowered(
 
 
 def lower_term(term: s.Term, fail: s.Fail, *, meet: s.Meet = lambda name, at: None, numbers: bool = False) -> Value:
-    """The polynomial over Q that ``term`` means, in the ring of its names; ``numbers`` that are not algebraic may be
-    among these."""
+    """The polynomial over Q that ``term`` means, in its names, ``numbers`` that are not algebraic among them."""
     collected = Names(fail, meet)
     collected.part(term)
     names = collected.all()
@@ -172,10 +171,9 @@ class Lowering:
     def comparison(self, node: s.Comparison, place: Place) -> Formula:
         links = zip(pairwise(node.sides), node.relations, strict=True)
         try:
-            formulas = [self.link(left, relation, right, place) for (left, right), relation in links]
+            return conj([self.link(left, relation, right, place) for (left, right), relation in links])
         except TermError as error:
             raise self.fail(str(error), node.at) from None
-        return conj(formulas) if len(formulas) > 1 else formulas[0]
 
     def link(self, left: s.Term, relation: Relation, right: s.Term, place: Place) -> Formula:
         """``left relation right``."""

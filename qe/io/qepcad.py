@@ -53,8 +53,7 @@ FALSE FALSE
 
 
 def read_posed(text: str, *, source: str = "<text>") -> tuple[Formula, Formula]:
-    """The formula of a session or of a formula alone, and what is assumed, TRUE without; over one ring. Raises
-    ``ParseError`` with a place."""
+    """The formula of a session or of a text, and over its ring what is assumed, TRUE without. Raises ``ParseError``."""
     fail = Failing(text, source)
     session = _SESSION.fullmatch(text)
     body, start = (session["formula"], session.start("formula")) if session else (text.rstrip().removesuffix("."), 0)

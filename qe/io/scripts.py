@@ -33,8 +33,7 @@ _ASSUMED = re.compile(r"(\w+)\s*=\s*(?:True|1)|domain\s*=\s*['\"](\w+)['\"]")
 
 
 def last_command(text: str) -> str:
-    """The command that a script ends in; another text as it is. Raises ``InputError`` for a statement that has no
-    meaning here."""
+    """The command that a script ends in; another text as it is. Raises ``InputError`` for what has no meaning here."""
     typed = "\n".join(re.findall(r"^(?:>>>|\.\.\.) (.*)", text, re.MULTILINE)) or text
     if len(text) > LONGEST or not _BEGINS.match(typed):
         return typed

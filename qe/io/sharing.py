@@ -224,13 +224,11 @@ class _Naming:
         """The part, made of what stands for those inside it."""
         if all(self.now[id(child)] is child for child in inside(part)):
             return part
-        fields = [
-            [self.now.get(id(item), item) for item in field]
-            if isinstance(field, list)
-            else self.now.get(id(field), field)
-            for field in part
-        ]
-        return cast(Callable[..., s.Part], type(part))(*fields)
+
+        def put(field: object) -> object:
+            return [*map(put, field)] if isinstance(field, list) else self.now.get(id(field), field)
+
+        return cast(Callable[..., s.Part], type(part))(*map(put, part))
 
 
 def chain(term: s.Term, known: Container[int] = ()) -> tuple[s.Term, list[s.Product | s.Quotient]]:

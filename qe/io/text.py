@@ -56,8 +56,7 @@ def read(text: str, *, source: str = "<text>", known: Container[str] = (), total
 def read_posed(
     text: str, *, source: str = "<text>", known: Container[str] = (), total_division: bool = False
 ) -> tuple[Formula, Formula]:
-    """As ``read``; what the text assumes, c of ``Assuming[c, f]`` and of ``Refine[f, c]``, by itself, TRUE without;
-    over one ring."""
+    """As ``read``; over the same ring what it assumes, c of ``Assuming[c, f]`` and ``Refine[f, c]``, TRUE without."""
     question = _question(_quoting(text, known))
     texts = [_written_out(question.formula), *([question.assumed] if question.assumed else [])]
     formula, *assumed = over_one_ring(*(_lowered(part, source, known, total_division) for part in texts))

@@ -79,12 +79,8 @@ class QuantifiedParser(Parser):
 
         def whole(body: s.Node) -> s.Node:
             written = self.text[start : self.token.at].strip()
-            if (
-                letter
-                and written[0] == "("
-                and unmatched_opening(written[:-1]) != 0
-                and not isinstance(body, s.Quantification)
-            ):
+            begins_product = letter and written[0] == "(" and unmatched_opening(written[:-1]) != 0
+            if begins_product and not isinstance(body, s.Quantification):
                 raise SyntaxFailure("a quantifier or a product? Write all x. f or ex x. f, or * between factors", start)
             return make(body)
 
@@ -296,13 +292,10 @@ def together(parts: Sequence[s.Node], at: int, *, quantified: bool = False) -> s
     if rest and isinstance(first, s.Quantification) and not first.universal and all(_has(p, first.names) for p in rest):
         return first._replace(body=together([first.body, *rest], at))
     bare = [part.part if isinstance(part, s.Negation) else part for part in parts]
-    mixed = len(parts) > 1 and any(isinstance(part, _LOOSE) for part in bare)
-    scoped = bare if quantified else bare[:-1]
-    if (
-        mixed
-        or any(isinstance(part, _QUANTIFIED) for part in scoped)
-        or (quantified and isinstance(bare[0], s.Equivalence))
-    ):
+    unclear = (len(parts) > 1 and any(isinstance(part, _LOOSE) for part in bare)) or (
+        quantified and isinstance(bare[0], s.Equivalence)
+    )
+    if unclear or any(isinstance(part, _QUANTIFIED) for part in (bare if quantified else bare[:-1])):
         reason = "a comma or a quantifier behind or, ->, <-> and quantifiers is ambiguous"
         raise SyntaxFailure(f"{reason}; write and, brackets, or {{…, …}}", at)
     for left, right in pairwise(parts):

@@ -72,11 +72,9 @@ class Total:
                 names = case.value.poly.ring.names
                 polys = [case.value.poly, *(factor for factor, _ in case.below)]
                 if all(names[i] in point for poly in polys for i in poly.variables):
-                    value = _at(case.value.poly, point) / case.value.den
-                    below = [(_at(factor, point), k) for factor, k in case.below]
-                    if all(bottom != 0 for bottom, _ in below):
-                        for bottom, k in below:
-                            value = value / bottom**k
+                    below = prod((_at(factor, point) ** k for factor, k in case.below), start=Fraction(case.value.den))
+                    if below != 0:
+                        value = _at(case.value.poly, point) / below
                         (certain if holds else doubtful).append((function, value, point.get(name, Fraction(0))))
         return certain + doubtful
 

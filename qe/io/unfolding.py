@@ -35,15 +35,13 @@ ABOVE, BELOW = (Relation.GT, Relation.GE), (Relation.LT, Relation.LE)
 
 @dataclass(frozen=True, slots=True)
 class Sums:
-    """Sums with such terms. ``known``: the values of parts that others share, which are taken as they are; ``value``:
-    that of any part."""
+    """Sums with such terms. ``known``: values of shared parts, which are taken as they are; ``value``: of any part."""
 
     known: Mapping[int, object]
     value: Callable[[Term], object]
 
     def unfolded(self, side: Term, relation: Relation) -> Unfolded | None:
-        """Terms in place of a side of a comparison, and whether all or some of them are compared so; None where it has
-        no such part."""
+        """Terms in place of a side of a comparison, and whether all or some are compared so; None without a part."""
         if relation in (Relation.EQ, Relation.NE) or not 1 < self.count(side) <= MOST_TERMS:
             return None
         if (place := self.first(side)) is None:

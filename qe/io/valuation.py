@@ -259,9 +259,7 @@ class Valuation(Auxiliaries):
 
         def made(name: str) -> Auxiliary:
             value = self.ring.var(name)
-            zero = self.ring.from_terms({})
-            for k, coefficient in enumerate(coefficients):
-                zero = zero + self.ring.constant(coefficient) * value**k
+            zero = sum((c * value**k for k, c in enumerate(coefficients)), self.ring.constant(0))
             low, high = (Fraction(end) for end in number.interval())
             ends = ((low, Relation.GE), (high, Relation.LE))
             near = (atom(value * end.denominator - end.numerator, relation) for end, relation in ends)

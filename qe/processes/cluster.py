@@ -67,8 +67,7 @@ def helping(cluster: Cluster) -> Iterator[Helpers]:
 
 @dataclass(frozen=True, slots=True)
 class _Made:
-    """What has come of a batch: the results up to the first error, pickled, and their number; that error; the seconds
-    of processor time it took."""
+    """Of a batch: the results up to the first error, pickled, and their number; that error; processor seconds."""
 
     packed: bytes
     count: int

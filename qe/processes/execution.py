@@ -68,8 +68,7 @@ class _Moves(BaseException):
 
 
 def perform(work: Work[T], limits: Limits, *, at_once: bool = False) -> T:
-    """``work(budget)`` under the limits, as ``run`` does it; in place of an ``Unable`` the last thing that the work has
-    kept is its result."""
+    """``work(budget)`` under the limits, as ``run`` does it; what it has kept last in place of an ``Unable``."""
     known = Known()
     try:
         return run(partial(_on_budget, work), limits, at_once=at_once, known=known)
