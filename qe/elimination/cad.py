@@ -63,11 +63,12 @@ def decomposed(formula: Formula, options: Options, budget: Budget, log: RunLog) 
         return Outcome(matrix, {} if matrix.value else None)
     first = question.table(budget)
     values: Values | None = None
+    whole: CellTable | None = None
     if formula.free:
-        answer, proof, levels, whole = question.shortest(first, budget)
+        (answer, proof, levels), whole = question.shortest(first, budget)
         answer = answer if options.root_atoms else presented(answer)
         if levels and options.certify:  # what was refined is no proof
-            proof = question.table(budget, levels, whole_free=whole).table
+            proof = question.table(budget, levels, whole_free=proof is whole).table
     else:
         truth, proof = first.table.root.truth is True, first.table
         answer = TRUE if truth else FALSE
@@ -78,7 +79,7 @@ def decomposed(formula: Formula, options: Options, budget: Budget, log: RunLog) 
     log.step("cells", formula, answer, evidence=kept(formula, make, options))
     # back into the ring of the formula it came from: it is joined with parts of that formula
     ring = formula.ring
-    return Outcome(answer if ring is None else convert(answer, ring), values, make=make, large=True)
+    return Outcome(answer if ring is None else convert(answer, ring), values, make=make, large=True, cells=whole)
 
 
 def kept(formula: Formula, make: Callable[[], Certificate] | None, options: Options) -> dict[str, object]:
@@ -122,6 +123,9 @@ def short_where(formula: Formula, known: Formula, options: Options, budget: Budg
     return simplify(convert(answer, both.ring or Ring.of(both.free)), known, watch=budget.check)
 
 
+_Answer = tuple[Formula, CellTable, frozenset[int]]
+
+
 @dataclass(frozen=True, slots=True)
 class _Question:
     """A prenex formula with the order of its variables."""
@@ -162,7 +166,7 @@ class _Question:
 
     def answer(
         self, found: Decomposed, budget: Budget, thom_levels: frozenset[int] = frozenset(), *, whole_free: bool = False
-    ) -> tuple[Formula, CellTable, frozenset[int]]:
+    ) -> _Answer:
         """The formula that a decomposition gives, and the table (refined if need be) that proves it; with the levels
         whose derivatives it needs, ``thom_levels`` from the start."""
         levels = thom_levels
@@ -181,21 +185,21 @@ class _Question:
         simple = simplify(convert(answer, Ring.of(self.free)), watch=budget.check)
         return simple, proof, levels
 
-    def shortest(self, first: Decomposed, budget: Budget) -> tuple[Formula, CellTable, frozenset[int], bool]:
+    def shortest(self, first: Decomposed, budget: Budget) -> tuple[_Answer, CellTable | None]:
         """As ``answer``; a small one is compared with that of the whole space of the free variables, for which formula
-        construction knows the signs of all factors everywhere. Last: whether that one is shorter."""
-        answer, proof, levels = self.answer(first, budget)
+        construction knows the signs of all factors everywhere. Last: the table of that space."""
+        best = self.answer(first, budget)
         plain = not self.options.root_atoms and Stage.PARTIAL not in self.options.without
         fewest = WHOLE_ATOMS_BOUND if any(self.prenex.quantifiers) else WHOLE_ATOMS
-        if not plain or first.cells > WHOLE_FROM or length(answer)[0] < fewest or not is_small(answer):
-            return answer, proof, levels, False
+        if not plain or first.cells > WHOLE_FROM or length(best[0])[0] < fewest or not is_small(best[0]):
+            return best, None
         part = budget.part(WHOLE_CELLS)
         try:
-            whole = self.table(part, levels, whole_free=True)
-            other, table, more = self.answer(whole, part, levels, whole_free=True)
+            whole = self.table(part, best[2], whole_free=True)
+            other = self.answer(whole, part, best[2], whole_free=True)
         except BudgetExceeded:
-            return answer, proof, levels, False
-        return (other, table, more, True) if length(other) < length(answer) else (answer, proof, levels, False)
+            return best, None
+        return min(best, other, key=lambda one: length(one[0])), other[1]
 
 
 def _figures(found: Decomposed, seconds: float) -> dict[str, object]:

@@ -4,12 +4,11 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from contextlib import suppress
-from dataclasses import dataclass
 from fractions import Fraction
 
 from qe.elimination.protocol import Context
 from qe.elimination.samples import pulls, relaxed
-from qe.engine.redundant import COARSE, FINE, FIRST, Points
+from qe.engine.redundant import COARSE, FINE, FIRST, Points, Start
 from qe.exact.watch import IDLE
 from qe.formula.build import exists
 from qe.formula.evaluate import holds_at
@@ -34,14 +33,6 @@ SETTLE_WORK = 2000
 
 ATOMS, LONG = 40, 1000
 """A formula of more atoms is not decided; one of more than ``LONG`` is not even evaluated."""
-
-
-@dataclass(frozen=True, slots=True)
-class Start:
-    """The question that an answer is to, and where its steps begin in the log."""
-
-    question: Formula
-    mark: int
 
 
 def constant(formula: Formula, context: Context, start: Start | None) -> Formula:

@@ -3,7 +3,8 @@
 ``c = 0 and P or c /= 0 and Q`` is Q where Q says at c = 0 what P says. A part of a disjunction matters at the points
 where it holds, the other parts do not, and every conjunct beside the way down to it does (every disjunct does not);
 in a conjunction, where it fails and the others hold. Whether there is such a point is a sentence. A few points answer
-most of these sentences at once; the others are decided, with little work, largest parts first.
+most of these sentences at once, and cells of a decomposition all of them where one is known; the others are decided,
+with little work, largest parts first.
 """
 
 from __future__ import annotations
@@ -14,16 +15,19 @@ from dataclasses import dataclass, field
 from fractions import Fraction
 from functools import cached_property
 
+from qe.decomposition.sign_table import Columns, Masks, free_cells, where
 from qe.elimination.protocol import Context
 from qe.errors import Unable
 from qe.exact.number import Values
-from qe.exact.ring import Poly
-from qe.formula.build import conj, disj, exists
+from qe.exact.ring import Poly, Ring
+from qe.formula.build import conj, convert, disj, exists
 from qe.formula.features import length
 from qe.formula.normal import nnf
-from qe.formula.syntax import FALSE, TRUE, And, Atom, Constant, Formula, Or, Relation
+from qe.formula.syntax import FALSE, TRUE, And, Atom, Formula, Or, Relation
 from qe.formula.traverse import atoms, bound_variables
 from qe.options import Stage
+from qe.proof.cells import CellTable
+from qe.proof.on_demand import OnDemand, Repeated
 from qe.proof.step import Nested, Place, Step
 from qe.simplifier.simplify import simplify
 
@@ -56,6 +60,18 @@ SMALL = (0, 0, 0, 1, 1, -1, -1, 2, -2, 3, -3, 5)
 CLOSE = tuple(map(Fraction, ("0", "1/2", "-1/2", "1/3", "-2/3", "1", "-1", "5/4", "-7/2", "9")))
 """The coordinates of these points."""
 
+Holding = Callable[[Formula], int]
+"""At which points, or on which cells, a formula holds, as bits."""
+
+
+@dataclass(slots=True)
+class Start:
+    """The question that an answer is to, where its steps begin in the log, and cells with the signs of all factors."""
+
+    question: Formula
+    mark: int
+    cells: CellTable | None = None
+
 
 @dataclass(frozen=True)
 class Part:
@@ -80,7 +96,7 @@ class Part:
 
 
 def without_redundant_parts(
-    formula: Formula, context: Context, start: object = None, *, known: Formula = TRUE
+    formula: Formula, context: Context, start: Start | None = None, *, known: Formula = TRUE
 ) -> Formula:
     """The formula without parts that make no difference where ``known`` holds, as far as little work shows them.
 
@@ -89,6 +105,10 @@ def without_redundant_parts(
     """
     if context.decide is None or not all(isinstance(a, Atom) for a in atoms(formula)) or formula != nnf(formula):
         return formula
+    if start is not None and start.cells is not None:
+        formula, settled = _without_parts_on_cells(formula, start.cells, context)
+        if settled:
+            return formula
     plain = [a for a in formula.args if isinstance(a, Atom)] if isinstance(formula, And | Or) else []
     is_long = len(plain) == length(formula)[0] > MOST_CURVED and any(a.poly.total_degree > 1 for a in plain)
     if is_long or not _is_suited(conj((known, formula))):
@@ -116,13 +136,37 @@ def without_redundant_parts(
     return _without_excluded_parts(formula, context, points)
 
 
+def _without_parts_on_cells(formula: Formula, table: CellTable, context: Context) -> tuple[Formula, bool]:
+    """The formula without parts that matter on no cell; and whether all signs in it are known there."""
+    from qe.elimination.cad import decomposed
+
+    ring, columns = Ring.of(table.order), Columns(free_cells(table), table.factors)
+
+    def holding(part: Formula) -> int:
+        true, false = columns.where(convert(part, ring))
+        if true | false != columns.everything:
+            raise KeyError(part)
+        return true
+
+    while True:
+        try:
+            part = next(iter(_by_size(formula, holding)), None)
+        except KeyError:  # also of a polynomial that is no product of the table's factors
+            return formula, False
+        if part is None:
+            return formula, True
+        again = OnDemand(Repeated(decomposed, part.sentence, context.options))
+        nested = Nested(part.sentence, (Step("cells", part.sentence, FALSE, evidence={"proof": again}),), FALSE)
+        formula = _dropped(formula, part, nested, context)
+
+
 def _without_excluded_parts(formula: Formula, context: Context, points: Points | None = None) -> Formula:
     """The formula without parts that the signs of its own polynomials exclude: these need not be small for that."""
     if sum(1 for _ in atoms(formula)) > MOST_ATOMS_ALONE:
         return formula
     points, kept, terms = points or Points(formula.free, context.budget.check), set[Formula](), MOST_TERMS_ALONE
     points.fill(FIRST)
-    parts = iter(_by_size(formula, points))
+    parts = iter(_by_size(formula, points.holding))
     while (part := next(parts, None)) is not None:
         # What mattered once has fewer conditions, not more, after another part is dropped: it is not looked at again.
         if part.formula in kept:
@@ -133,7 +177,7 @@ def _without_excluded_parts(formula: Formula, context: Context, points: Points |
         if simplify(conj(part.conditions), watch=context.budget.check) == FALSE:
             nested = Nested(part.sentence, (Step("simplification", part.sentence, FALSE),), FALSE)
             formula = _dropped(formula, part, nested, context)
-            parts = iter(_by_size(formula, points))
+            parts = iter(_by_size(formula, points.holding))
         else:
             kept.add(part.formula)
     return formula
@@ -178,27 +222,27 @@ def _unsettled(formula: Formula, points: Points, kept: set[Formula], known: Form
     for count in (FIRST, COARSE, COARSE + FINE):
         if not points.fill(count) and count < COARSE + FINE:
             continue
-        parts = _by_size(formula, points, known)
+        parts = _by_size(formula, points.holding, known)
         parts = [p for p in parts if not (p.of_conjunction and p.formula in equations)]  # these are hardly redundant
         if not any(is_cheap_sentence(p.sentence) for p in parts):
             return
     yield from (p for p in parts if p.sentence not in kept and is_cheap_sentence(p.sentence))
 
 
-def _by_size(formula: Formula, points: Points, known: Formula = TRUE) -> list[Part]:
+def _by_size(formula: Formula, holding: Holding, known: Formula = TRUE) -> list[Part]:
     """The parts of which no point tells that they matter, largest first."""
-    parts = _silent(formula, points, (), () if known == TRUE else ((known, True),), points.holding(known))
+    parts = _silent(formula, holding, (), () if known == TRUE else ((known, True),), holding(known))
     return sorted(parts, key=lambda part: length(part.formula), reverse=True)
 
 
 def _silent(
-    formula: Formula, points: Points, place: Place, above: tuple[tuple[Formula, bool], ...], there: int
+    formula: Formula, holding: Holding, place: Place, above: tuple[tuple[Formula, bool], ...], there: int
 ) -> Iterator[Part]:
     """The parts below a place that matters under conditions, at the points ``there``, and that no point tells."""
     if not isinstance(formula, And | Or):
         return
     both = isinstance(formula, And)
-    masks = [points.holding(a) for a in formula.args]
+    masks = [holding(a) for a in formula.args]
     for k, (arg, mask) in enumerate(zip(formula.args, masks, strict=True)):
         here = there
         for j, other in enumerate(masks):
@@ -206,7 +250,7 @@ def _silent(
         conditions = (*above, *((r, both) for j, r in enumerate(formula.args) if j != k))
         if not here & (~mask if both else mask):
             yield Part((*place, k), arg, both, (*conditions, (arg, not both)))
-        yield from _silent(arg, points, (*place, k), conditions, here)
+        yield from _silent(arg, holding, (*place, k), conditions, here)
 
 
 @dataclass(slots=True)
@@ -243,34 +287,20 @@ class Points:
 
     def holding(self, formula: Formula) -> int:
         """Where the formula holds."""
-        everywhere, (seen, mask) = (1 << len(self.listed)) - 1, self.known.get(formula, (0, 0))
-        if seen == len(self.listed):
-            return mask
-        match formula:
-            case Constant():
-                mask = everywhere if formula == TRUE else 0
-            case And(args):
-                mask = everywhere
-                for arg in args:
-                    mask &= self.holding(arg)
-            case Or(args):
-                mask = 0
-                for arg in args:
-                    mask |= self.holding(arg)
-            case Atom(poly, relation):
-                below, above = self.signs_of(poly)
-                kinds = {-1: below, 0: everywhere & ~(below | above), 1: above}
-                mask = sum(kinds[sign] for sign in relation.signs)
-        self.known[formula] = len(self.listed), mask
+        seen, mask = self.known.get(formula, (0, 0))
+        if seen != len(self.listed):
+            mask, _ = where(formula, self.signs_of, (1 << len(self.listed)) - 1)
+            self.known[formula] = len(self.listed), mask
         return mask
 
-    def signs_of(self, poly: Poly) -> tuple[int, int]:
-        """Where a polynomial is negative, and where it is positive."""
+    def signs_of(self, poly: Poly) -> Masks:
+        """Where a polynomial has each sign."""
         seen, below, above = self.signs.get(poly, (0, 0, 0))
-        self.watch()
-        names = poly.ring.names
-        for k, point in enumerate(self.listed[seen:], start=seen):
-            sign = poly.sign_at([point.get(name, 0) for name in names])
-            below, above = below | (sign < 0) << k, above | (sign > 0) << k
-        self.signs[poly] = len(self.listed), below, above
-        return below, above
+        if seen != len(self.listed):
+            self.watch()
+            names = poly.ring.names
+            for k, point in enumerate(self.listed[seen:], start=seen):
+                sign = poly.sign_at([point.get(name, 0) for name in names])
+                below, above = below | (sign < 0) << k, above | (sign > 0) << k
+            self.signs[poly] = len(self.listed), below, above
+        return {-1: below, 0: (1 << len(self.listed)) - 1 & ~(below | above), 1: above}

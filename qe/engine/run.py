@@ -13,8 +13,8 @@ from dataclasses import dataclass, field, replace
 from fractions import Fraction
 
 from qe.elimination.protocol import Context, Outcome
-from qe.engine.constant import Start
 from qe.engine.reductions import gathered_block, lifted_values, to_dual
+from qe.engine.redundant import Start
 from qe.engine.strategy import SPARE, Attempt, Scope, Spare, alone, attempts, chosen_alone, complete
 from qe.errors import Contradiction, Unable
 from qe.exact.number import Values

@@ -6,10 +6,10 @@ from collections.abc import Callable
 from dataclasses import dataclass
 
 from qe.elimination.protocol import Context
-from qe.engine.constant import Start, constant
+from qe.engine.constant import constant
 from qe.engine.factor_signs import has_products, signs_of_factors
 from qe.engine.implied import affine_hull_first, is_linear_conjunction
-from qe.engine.redundant import without_redundant_parts
+from qe.engine.redundant import Start, without_redundant_parts
 from qe.engine.strategy import allows
 from qe.engine.untangle import has_equations, untangled, untangled_negation
 from qe.errors import Unable
@@ -54,6 +54,8 @@ def read_off_cells(formula: Formula, context: Context, start: Start | None) -> F
 
     work = LONG_WORK if start is not None and length(formula)[1] >= LONG else SHORTEN_WORK
     outcome = decomposed(formula, context.options, context.budget.part(work), RunLog())
+    if start is not None:
+        start.cells = outcome.cells
     if length(outcome.formula) >= length(formula):
         return formula
     evidence = kept(formula, outcome.make, context.options)
