@@ -92,12 +92,10 @@ class RadiusRule:
             effect = f"formula {formula} has no solution"
         else:
             effect = "the other conditions cannot hold"
-        return f"{points}: this forces {equal} (proved), so {effect}; {self._way_out()}"
-
-    def _way_out(self) -> str:
-        if self.larger is None:
-            return "no radius up to 3 r was found that helps"
-        return f"with radius = {self.larger} there is a path that does not stop there (proved)"
+        helps = "no radius up to 3 r was found that helps"
+        if self.larger is not None:
+            helps = f"with radius = {self.larger} there is a path that does not stop there (proved)"
+        return f"{points}: this forces {equal} (proved), so {effect}; {helps}"
 
     def to_json(self) -> dict[str, Any]:
         """The entry of ``summary.json``."""
@@ -286,15 +284,6 @@ class Story:
     """The time that it gives."""
 
 
-@dataclass(frozen=True, slots=True)
-class Restored(Generic[P]):
-    """A plan found again from a folder, before obstacles and quality, and a line about each thing that was checked."""
-
-    plan: P
-    """Its certificate is the one that the folder has to have; what only planning needs is left out."""
-    lines: tuple[str, ...]
-
-
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Method(Generic[P]):
     """A planning method."""
@@ -311,9 +300,10 @@ class Method(Generic[P]):
     """Writes the pictures into a folder."""
     story: Callable[[P, Drawing | None], Story]
     """What its page says beyond what every page says, with the drawing if there is one."""
-    restore: Callable[[Problem, Certificate, Stated], Restored[P]]
-    """The plan that the certificates in a folder prove, without any search; ``CertificateRejected`` where they are
-    not about the problem."""
+    restore: Callable[[Problem, Certificate, Stated], tuple[P, tuple[str, ...]]]
+    """The plan that the certificates in a folder prove, without any search, before obstacles and quality, with the
+    certificate that the folder has to have, and a line about each thing that was checked; ``CertificateRejected`` where
+    they are not about the problem."""
     summary_lines: Callable[[P], list[str]] = lambda plan: []
     """Its lines in the summary for people."""
     files: Callable[[P], dict[str, str]] = lambda plan: {}

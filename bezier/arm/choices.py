@@ -78,10 +78,6 @@ class Exact(ABC):
     def sign(self, number: Any) -> int:
         """Of one of the numbers that the joint is made of."""
 
-    def has_no_sine(self) -> bool:
-        """Whether the sine of an angle is 0."""
-        return self.joint.s is not None and not self.sign(self.joint.s)
-
     def length_side(self, limit: Fraction) -> int:
         """The sign of a length minus a limit."""
         return self.sign(self.joint.c - self.joint.w.by(Surd.rational(limit)))
@@ -142,7 +138,7 @@ def side(exact: Exact, turns: int, limit: Fraction) -> int:
         if low > limit or high < limit:
             return 1 if low > limit else -1
         # the sine vanishes, and the interval around 0 tells that the cosine is 1
-        if limit == 0 and turns == 0 and exact.has_no_sine():
+        if limit == 0 and turns == 0 and exact.joint.s is not None and not exact.sign(exact.joint.s):
             return 0
         bits *= 2
     raise Unable(f"an angle agrees with a limit of its joint to {MOST_BITS} binary places")

@@ -8,7 +8,7 @@ from math import degrees
 from typing import Any
 
 from bezier.arm import evidence, path_report
-from bezier.arm.choices import Arc, Choice, Edge, Ends, Value, spans
+from bezier.arm.choices import Choice, Edge, Value, spans
 from bezier.arm.evidence import certificates, without_certificate
 from bezier.arm.inverse import MOST_BITS, Inverse, Solution, separated, solve
 from bezier.arm.inverse_evidence import inverse_certificate
@@ -96,41 +96,30 @@ def _solution(arm: Arm, solution: Solution) -> dict[str, Any]:
     result = {"joints": joints, "multiple": solution.multiple, "within_limits": solution.allowed}
     if solution.choices:
         result["choices"] = [_choice(arm.joints[choice.joint], choice) for choice in solution.choices]
-        result["follow"] = _followers(arm, solution)
+        chosen = {choice.joint for choice in solution.choices}
+        free = (k for k, value in enumerate(solution.values) if value is None and k not in chosen)
+        result["follow"] = [arm.joints[k].name for k in free]
     return result
 
 
-def _followers(arm: Arm, solution: Solution) -> list[str]:
-    chosen = {choice.joint for choice in solution.choices}
-    return [j.name for k, j in enumerate(arm.joints) if solution.values[k] is None and k not in chosen]
-
-
 def _choice(joint: Joint, choice: Choice) -> dict[str, Any]:
-    arcs: Any = "all" if choice.arcs is None else [_arc(arc) for arc in choice.arcs]
+    ends = [[None if end is None else _joint(end.value()) for end in arc] for arc in choice.arcs or ()]
+    arcs: Any = "all" if choice.arcs is None else [{"low": low, "high": high} for low, high in ends]
     values = [{"low": _edge(low), "high": _edge(high)} for low, high in spans(joint, choice)]
     return {"joint": joint.name, "possible": arcs, "values": values}
 
 
-def _arc(arc: Arc) -> dict[str, Any]:
-    low, high = (None if end is None else _joint(end.value()) for end in arc)
-    return {"low": low, "high": high}
-
-
 def _edge(edge: Edge) -> Any:
-    return (
-        None if edge.value is None else {"value": edge.value, "limit": None if edge.limit is None else str(edge.limit)}
-    )
+    limit = None if edge.limit is None else str(edge.limit)
+    return None if edge.value is None else {"value": edge.value, "limit": limit}
 
 
 def _joint(value: Value) -> dict[str, Any]:
     if value.cosine is None or value.sine is None:
         return {"length": float(value), "box": {"length": [str(e) for e in value.ends]}}
     box = {"cos": [str(e) for e in value.cosine], "sin": [str(e) for e in value.sine]}
-    return {"angle": float(value), "cos": _decimal(value.cosine), "sin": _decimal(value.sine), "box": box}
-
-
-def _decimal(ends: Ends) -> str:
-    return decimal_text(Fraction(ends[0] + ends[1]) / 2, DIGITS)
+    cosine, sine = (decimal_text(sum(ends, Fraction(0)) / 2, DIGITS) for ends in (value.cosine, value.sine))
+    return {"angle": float(value), "cos": cosine, "sin": sine, "box": box}
 
 
 def in_words(answer: Inverse) -> list[str]:
@@ -143,7 +132,11 @@ def in_words(answer: Inverse) -> list[str]:
         what = what if answer.rotation else "point (proved: the equation of the last joint has no real root)"
         return [*lines, f"no joint position reaches the {what}"]
     if answer.free:
-        lines.append(f"infinitely many solutions, {', '.join(answer.free)} free; {_families(answer)}")
+        single = sum(None not in s.angles for s in answer.solutions)
+        count = len(answer.solutions) - single
+        families = f"{count} famil{'y' if count == 1 else 'ies'}"
+        families += f" and {single} single solution{'s' if single != 1 else ''}" if single else ""
+        lines.append(f"infinitely many solutions, {', '.join(answer.free)} free; {families}")
     else:
         lines.append(f"{len(answer.solutions)} solution{'s' if len(answer.solutions) != 1 else ''} (proved), in rad:")
     answer, further = separated(answer), 0
@@ -153,9 +146,8 @@ def in_words(answer: Inverse) -> list[str]:
             break
         further += FURTHER
     for k, (solution, positions) in enumerate(zip(answer.solutions, texts, strict=True), start=1):
-        notes = ["two solutions meet"] * solution.multiple + ["outside the limits of the joints"] * (
-            not solution.allowed
-        )
+        notes = ["two solutions meet"] * solution.multiple
+        notes += ["outside the limits of the joints"] * (not solution.allowed)
         lines.append(f"  {k}. {positions}" + (f"  [{'; '.join(notes)}]" if notes else ""))
     return lines if answer.allowed_count else [*lines, "no joint position is within the limits of the joints"]
 
@@ -170,14 +162,6 @@ def _positions(arm: Arm, solution: Solution, further: int) -> str:
         joint = arm.joints[choice.joint]
         parts[choice.joint] = f"{joint.name} {_range(joint, choice)}"
     return ", ".join(parts)
-
-
-def _families(answer: Inverse) -> str:
-    """Solutions with a joint that can be chosen, and those without one."""
-    single = sum(None not in s.angles for s in answer.solutions)
-    count = len(answer.solutions) - single
-    families = f"{count} famil{'y' if count == 1 else 'ies'}"
-    return families + (f" and {single} single solution{'s' if single != 1 else ''}" if single else "")
 
 
 def _range(joint: Joint, choice: Choice) -> str:

@@ -126,13 +126,10 @@ def continuous_motions(arm: Arm, curves: Mapping[str, Bezier]) -> ContinuousMoti
         places = along.places
         marks: list[Number] = [Fraction(0), *(s for s in places if 0 < s < 1), Fraction(1)]
         for i, (low, high) in enumerate(pairwise(marks)):
-            if arcs:
+            arcs.append(_arcs(along, k, low, high))
+            if len(arcs) > 1:
                 before = (listed[k - 1], Fraction(1)) if i == 0 else (along, low)
-                last, s = arcs[-1], before[1]
-                arcs.append(_arcs(along, k, low, high))
-                junctions.append(_junction(before, along, last, arcs[-1], s))
-            else:
-                arcs.append(_arcs(along, k, low, high))
+                junctions.append(_junction(before, along, *arcs[-2:]))
     return ContinuousMotions(arm, tuple(listed), tuple(arcs), tuple(junctions))
 
 
@@ -145,15 +142,12 @@ def _arcs(along: SignsAlong, curve: int, low: Number, high: Number) -> Arcs:
     return Arcs(curve, low, high, sample, labels, result)
 
 
-def _junction(before: tuple[SignsAlong, Number], after: SignsAlong, one: Arcs, other: Arcs, s: Number) -> Junction:
-    along, at = before
-    between = along.between(at) if at in along.places else NOTHING
+def _junction(before: tuple[SignsAlong, Number], after: SignsAlong, one: Arcs, other: Arcs) -> Junction:
+    along, s = before
+    between = along.between(s) if s in along.places else Between(False, frozenset(), 1)
     if along is not after:
         between = joined(along.signs, after.signs, Entry(None, "the next curve"))
     plane = along.arm.plane
     passes = frozenset((a, b) for a in one.labels for b in other.labels if between.goes_on(plane, a, b))
     on_axis = between.vanishes and not plane.offset
     return Junction(one.curve, s, passes, on_axis, bool(between.empty) or (between.vanishes and not on_axis))
-
-
-NOTHING = Between(False, frozenset(), 1)

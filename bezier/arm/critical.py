@@ -8,11 +8,11 @@ function of s.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from enum import Enum
 from fractions import Fraction
-from functools import cached_property
+from functools import cache, cached_property
 
 from bezier.arm.elimination import LIFTED, TURNS, Geometry, Reduction
 from bezier.arm.inverse import geometry_of
@@ -74,15 +74,9 @@ class AlongCurve:
         return self._ratio(p).top
 
     @cached_property
-    def _reductions(self) -> dict[int, Reduction]:
-        return {}
-
-    def reduction(self, turn: int) -> Reduction:
-        """The reduction with angles counted from ``TURNS[turn]``."""
-        known = self._reductions
-        if turn not in known:
-            known[turn] = self.geometry.reduce(Ring.of(NAMES), self.point, TURNS[turn])
-        return known[turn]
+    def reduction(self) -> Callable[[int], Reduction]:
+        """The reduction with angles counted from ``TURNS[turn]``, by the number of the turn."""
+        return cache(lambda turn: self.geometry.reduce(Ring.of(NAMES), self.point, TURNS[turn]))
 
     @property
     def geometry(self) -> Geometry:
@@ -116,9 +110,8 @@ class AlongCurve:
         for reason, other in ((Reason.MERGE, r.square), (Reason.FREE, r.kappa)):
             if other is not None:
                 yield reason, reduced(r.equation.resultant(other, t), field)
-                if (
-                    r.degree is not None and other.degree(t) < LIFTED
-                ):  # it vanishes at the angle that t misses: so may the equation for some s
+                # where it vanishes at the angle that t misses, so may the equation for some s
+                if r.degree is not None and other.degree(t) < LIFTED:
                     yield reason, r.coefficients[-1]
 
     def critical(self) -> list[tuple[Number, tuple[Reason, ...]]]:
@@ -126,9 +119,8 @@ class AlongCurve:
         result: dict[Number, list[Reason]] = {}
         for reason, p in self.polynomials():
             if not p:
-                raise Unable(
-                    f"everywhere along the curve: {reason.value}; the number of solutions is not followed there"
-                )
+                where = f"everywhere along the curve: {reason.value}"
+                raise Unable(f"{where}; the number of solutions is not followed there")
             for s in self.zeros(p):
                 result.setdefault(s, []).append(reason)
         return [(s, tuple(dict.fromkeys(result[s]))) for s in sorted(result)]

@@ -65,10 +65,6 @@ class Solution:
         """The angles (rad), and the lengths (mm) of joints that slide."""
         return tuple(None if value is None else float(value) for value in self.values)
 
-    def may_be(self, other: Solution) -> bool:
-        """Whether the balls of both leave it open that they are the same."""
-        return all(a and b and a.meets(b) for a, b in zip(self.values, other.values, strict=True))
-
     def refined(self, joint: int, bits: int) -> Value | None:
         """The value of a joint with intervals at most about 2^-bits wide."""
         exact = self.exact[joint]
@@ -111,8 +107,12 @@ def separated(answer: Inverse) -> Inverse:
 
     Different solutions differ in the cosine, the sine or the length of a joint. Families stay as they are.
     """
+
+    def may_be(one: Solution, other: Solution) -> bool:
+        return all(a and b and a.meets(b) for a, b in zip(one.values, other.values, strict=True))
+
     solutions, bits = answer.solutions, BITS
-    while bits < MOST_BITS and not answer.free and any(a.may_be(b) for a, b in combinations(solutions, 2)):
+    while bits < MOST_BITS and not answer.free and any(may_be(a, b) for a, b in combinations(solutions, 2)):
         bits *= 2
         solutions = tuple(
             replace(one, values=tuple(one.refined(k, bits) for k in range(len(one.values)))) for one in solutions
@@ -137,9 +137,8 @@ def solve_at(arm: Arm, here: Point, numbers: tuple[Any, ...], reductions: Reduct
     first = reductions(0)
     on_axis = first.axis is not None and here.sign(first.axis) == 0
     on_shoulder = bool(first.shoulder) and all(here.sign(p) == 0 for p in first.shoulder)
-    cases = (f"on the axis of {arm.joints[0].name}",) * on_axis + (
-        f"on the circle of the shoulder, the centre of {arm.joints[1].name}",
-    ) * on_shoulder
+    cases = (f"on the axis of {arm.joints[0].name}",) * on_axis
+    cases += (f"on the circle of the shoulder, the centre of {arm.joints[1].name}",) * on_shoulder
     values, t = Evaluation(here), first.ring.index[T]
     if not geometry_of(arm).moves_last:
         place = Evaluation(here.extend(RealAlgebraic.rational(Fraction(0))))

@@ -10,7 +10,7 @@ from bezier.arm.choices import Choice, Value
 from bezier.arm.evidence import POSITIONS
 from bezier.arm.inverse import Inverse, Solution
 from bezier.arm.pose import first_three, is_family, motion_of
-from bezier.arm.roots_of_squares import arm_json, roots_of, surd_json, surds
+from bezier.arm.roots_of_squares import arm_json, roots_of, square_roots, surds
 from bezier.proofs.arm_rows import read_circle
 from bezier.proofs.inverse_pose import centre
 from qe.errors import Unable
@@ -62,14 +62,8 @@ def _payloads(answer: Inverse, bits: int, places: int) -> Iterator[dict[str, Jso
 
 def _over(around: Sequence[tuple[Fraction, Fraction]], t: Sequence[Fraction], boxes: Sequence[Json]) -> Json:
     """The roots, each with the boxes of the solutions whose t is there."""
-    return [
-        {
-            "low": str(low),
-            "high": str(high),
-            "solutions": [box for box, v in zip(boxes, t, strict=True) if low <= v <= high],
-        }
-        for low, high in around
-    ]
+    held = ([box for box, v in zip(boxes, t, strict=True) if low <= v <= high] for low, high in around)
+    return [{"low": str(a), "high": str(b), "solutions": s} for (a, b), s in zip(around, held, strict=True)]
 
 
 def _wider(ends: tuple[Fraction, Fraction], bits: int, spare: int = 4) -> tuple[Fraction, Fraction]:
@@ -83,10 +77,8 @@ def _parameter(solution: Solution, turn: tuple[Fraction, Fraction] | None, bits:
     value = solution.refined(2, bits + 20)
     if value is None:
         return Fraction(0)
-    return sum(value.ends, Fraction(0)) / 2 if turn is None else _tangent(value, turn)
-
-
-def _tangent(value: Value, turn: tuple[Fraction, Fraction]) -> Fraction:
+    if turn is None:
+        return sum(value.ends, Fraction(0)) / 2
     assert value.cosine is not None and value.sine is not None, "the joint turns"
     c, s = ((low + high) / 2 for low, high in (value.cosine, value.sine))
     cosine, sine = c * turn[0] + s * turn[1], s * turn[0] - c * turn[1]
@@ -114,4 +106,5 @@ def _of(value: Value, places: int) -> Json:
 
 
 def _triple(numbers: Sequence[Any]) -> Json:
-    return [surd_json(c) for c in numbers]
+    """Sums of square roots as lists of [factor, number under the root]."""
+    return [[[str(q), d] for d, q in sorted(square_roots(c).items()) if q] for c in numbers]

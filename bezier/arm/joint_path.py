@@ -164,8 +164,7 @@ def joint_path(arm: Arm, curves: Mapping[str, Bezier]) -> JointPath:
 
 def _branches(studied: Study, before: Sequence[Branch]) -> list[Branch]:
     """All branches of a curve, each once: those that go on from the curve before, with the same angles and not only the
-    same
-    directions, and those through the other solutions at one parameter of every stretch."""
+    same directions, and those through the other solutions at one parameter of every stretch."""
     branches: list[Branch] = []
     stops = [p.s if isinstance(p.s, Fraction) else p.s.interval(40)[0] for p in studied.specials if p.reasons]
     for last in before:

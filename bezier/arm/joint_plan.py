@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import csv
 import io
-import json
 from collections.abc import Mapping
 from dataclasses import dataclass
 from fractions import Fraction
@@ -77,7 +76,9 @@ def joint_plan(
     sequence = motion = None
     try:
         sequence = joint_sequence(path, moments)
-        remarks += [_switch(s.before.tau, s.after.tau, s.change) for s in sequence.switches]
+        for s in sequence.switches:
+            where = f"between {float(s.before.tau):.4g} and {float(s.after.tau):.4g} of the time"
+            remarks.append(f"{where} no proved motion goes on: the sequence changes by {s.change:.4g} rad there")
         run = next((run for run in path.runs if run.number == sequence.run), None)
         if run is not None and not run.excesses:
             motion = joint_motion(path, run, law, duration, ends)
@@ -88,11 +89,6 @@ def joint_plan(
     except Unable as error:
         remarks.append(str(error))
     return JointPlan(path, law, ends, duration, sequence, motion, tuple(remarks))
-
-
-def _switch(before: Fraction, after: Fraction, change: float) -> str:
-    where = f"between {float(before):.4g} and {float(after):.4g} of the time"
-    return f"{where} no proved motion goes on: the sequence changes by {change:.4g} rad there"
 
 
 def table(plan: JointPlan) -> tuple[list[str], list[list[float]]]:
@@ -130,7 +126,13 @@ def to_csv(plan: JointPlan) -> str:
 
 
 def to_json(plan: JointPlan) -> dict[str, Any]:
-    """``joints.json``: the study of the path, the sequence, and what is proved about the motion."""
+    """``joints.json``: the study of the path, the sequence, and what is proved about the motion, such as bounds of the
+    largest absolute velocity (rad/s) and acceleration (rad/s²) of each joint."""
+    extremes = {
+        joint.name: {"velocity": _bounds(v), "acceleration": _bounds(a)}
+        for m in ([] if plan.motion is None else [plan.motion])
+        for joint, v, a in zip(m.joints, m.speeds, m.accelerations, strict=True)
+    }
     data: dict[str, Any] = {
         **path_report.to_json(plan.path),
         "duration": str(plan.duration),
@@ -139,7 +141,7 @@ def to_json(plan: JointPlan) -> dict[str, Any]:
         "run": None if plan.sequence is None else plan.sequence.run,
         "total_change": None if plan.sequence is None else round(plan.sequence.change, DECIMALS),
         "limits": {} if plan.motion is None else plan.motion.kept,
-        "extremes": {} if plan.motion is None else _extremes(plan.motion),
+        "extremes": extremes,
         "columns": [],
         "rows": [],
     }
@@ -150,43 +152,33 @@ def to_json(plan: JointPlan) -> dict[str, Any]:
     return data
 
 
-def _extremes(motion: JointMotion) -> dict[str, Any]:
-    """The largest absolute velocity (rad/s) and acceleration (rad/s²) of each joint: bounds that are proved."""
-    parts = zip(motion.joints, motion.speeds, motion.accelerations, strict=True)
-    return {j.name: {"velocity": _bounds(v), "acceleration": _bounds(a)} for j, v, a in parts}
-
-
 def _bounds(value: Enclosure) -> list[float]:
     low, high = map(float, value.finite)
     return [float(f"{low:.6g}"), float(f"{high * (1 + 1e-5):.6g}")]
 
 
-def animation(plan: JointPlan) -> str:
-    """What the moving picture needs, as JSON text: the path, and frames with points (mm) and angles of the arm."""
+def animation(plan: JointPlan) -> dict[str, Any]:
+    """What the moving picture needs: the path, and frames with points (mm) and angles of the arm."""
     assert plan.sequence is not None, "only plans with a sequence move"
     arm, sequence = plan.path.arm, plan.sequence
     step = max(1, len(sequence.angles) // FRAMES)
     chosen = sorted({*range(0, len(sequence.angles), step), len(sequence.angles) - 1})
     curves = plan.path.curves.values()
     trace = [[round(float(c), 2) for c in curve.point(Fraction(k, 40))] for curve in curves for k in range(41)]
-    return json.dumps(
-        {
-            "names": [joint.name for joint in arm.joints],
-            "turns": [joint.motion is JointKind.REVOLUTE for joint in arm.joints],
-            "moving": [arm.rows[k - 1].joint is not None for k in arm.ends[1:]],
-            "path": trace,
-            "duration": float(plan.duration),
-            "frames": [
-                {
-                    "t": round(float(sequence.samples[k].tau * plan.duration), 4),
-                    "q": [round(a, 5) for a in sequence.angles[k]],
-                    "p": [[round(c, 2) for c in point] for point in skeleton(arm, sequence.angles[k])],
-                }
-                for k in chosen
-            ],
-        },
-        separators=(",", ":"),
-    )
+    return {
+        "names": [joint.name for joint in arm.joints],
+        "turns": [joint.motion is JointKind.REVOLUTE for joint in arm.joints],
+        "moving": [arm.rows[k - 1].joint is not None for k in arm.ends[1:]],
+        "path": trace,
+        "frames": [
+            {
+                "t": round(float(sequence.samples[k].tau * plan.duration), 4),
+                "q": [round(a, 5) for a in sequence.angles[k]],
+                "p": [[round(c, 2) for c in point] for point in skeleton(arm, sequence.angles[k])],
+            }
+            for k in chosen
+        ],
+    }
 
 
 def in_words(plan: JointPlan) -> list[str]:

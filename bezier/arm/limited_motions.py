@@ -65,9 +65,8 @@ def joined(judged: Iterable[Judged]) -> tuple[Excess, ...]:
     result = list[Excess]()
     for curve, low, high, broken in judged:
         for joint, limit in broken:
-            before = next(
-                (e for e in result if (e.curve, e.joint, e.limit, e.high) == (curve, joint, limit, low)), None
-            )
+            at = (curve, joint, limit, low)
+            before = next((e for e in result if (e.curve, e.joint, e.limit, e.high) == at), None)
             if before is not None:
                 result.remove(before)
             result.append(Excess(curve, joint, limit, low if before is None else before.low, high))
@@ -257,14 +256,10 @@ def _reading(joint: Joint, exact: Exact, value: float) -> Reading:
     least = next(k for k in listed if side(exact, k, low) >= 0)
     most = next(k for k in reversed(listed) if side(exact, k, high) <= 0)
     if is_wide(joint):
-        return Reading(least, most, _sector(exact, value), value)
+        sector = SECTORS[exact.sign(exact.joint.c), exact.sign(exact.joint.s)]
+        if sector * value < 0:
+            raise Unable("an angle is too close to half a turn to count its turns")
+        return Reading(least, most, sector, value)
     is_nearer_below = float(low) - value - tau * most < value + tau * least - float(high)
     turns = most if least > most and is_nearer_below else least
     return Reading(least - turns, most - turns, None, value)
-
-
-def _sector(exact: Exact, value: float) -> int:
-    sector = SECTORS[exact.sign(exact.joint.c), exact.sign(exact.joint.s)]
-    if sector * value < 0:
-        raise Unable("an angle is too close to half a turn to count its turns")
-    return sector

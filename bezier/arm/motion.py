@@ -74,9 +74,11 @@ def joint_motion(path: JointPath, run: Run, law: TimeLaw, duration: Fraction, en
     count = len(path.arm.joints)
     low, high = ([[ZERO, ZERO] for _ in range(count)] for _ in range(2))
     for piece, first, second in _timed(run, law, ends):
+        squares = [x * x for x in first]
+        square = (ZERO if first[0] <= 0 <= first[1] else min(squares)), max(squares)
         for j in range(count):
             v, a = ((Fraction(b[j][0]), Fraction(b[j][1])) for b in (piece.velocity, piece.acceleration))
-            (low_push, high_push), (below, above) = _times(a, _square(first)), _times(v, second)
+            (low_push, high_push), (below, above) = _times(a, square), _times(v, second)
             speed, push = _times(v, first), (low_push + below, high_push + above)
             for k, value in enumerate((speed, push)):
                 high[j][k] = max(high[j][k], *map(abs, value))
@@ -111,8 +113,3 @@ def _range(p: RationalPoly, low: Fraction, high: Fraction, factor: Fraction) -> 
 def _times(a: Range, b: Range) -> Range:
     products = [x * y for x in a for y in b]
     return min(products), max(products)
-
-
-def _square(a: Range) -> Range:
-    ends = sorted(x * x for x in a)
-    return (ZERO if a[0] <= 0 <= a[1] else ends[0]), ends[1]

@@ -9,7 +9,7 @@ from bezier.arm.continuous import Arcs, ContinuousMotion, ContinuousMotions, Jun
 from bezier.arm.critical import Reason
 from bezier.arm.joint_path import JointPath, Run
 from bezier.arm.limited_motions import Excess
-from bezier.arm.study import Near, Place, Special, Stretch, Study
+from bezier.arm.study import Near, Place, Stretch, Study
 from bezier.curves.scalar import brief, decimal_text, described
 
 MOST_SHOWN = 16
@@ -238,7 +238,10 @@ def in_words(path: JointPath) -> list[str]:
                 f"  {p.count or 'none'} within the limits for every s in ({short(p.low)}, {short(p.high)})"
                 for p in studied.within
             ]
-        lines += [f"  at s = {short(p.s)}: {_special(p)}" for p in studied.specials if p.reasons]
+        for p in studied.specials:
+            count = "infinitely many solutions" if p.inverse.count is None else f"{p.inverse.count} different solutions"
+            what = " and ".join(r.value for r in p.reasons)
+            lines += [f"  at s = {short(p.s)}: {what}; {count}"] if what else []
         lines += [f"  at s = {short(s)}: {Reason.SINE.value} (nothing happens to the arm)" for s in studied.shared]
     return [*lines, *_numbers(path), *(f"  {line}" for line in excesses_in_words(path)), *_details(path)]
 
@@ -249,8 +252,3 @@ def _verdict(studied: Study) -> str:
         return f"every point can be reached{limited} (proved for all s in [0, 1])"
     first = studied.gaps[0] if studied.gaps else None
     return f"NOT reachable{limited}" + ("" if first is None else f" from s = {short(first.low)} on")
-
-
-def _special(p: Special) -> str:
-    count = "infinitely many solutions" if p.inverse.count is None else f"{p.inverse.count} different solutions"
-    return f"{' and '.join(r.value for r in p.reasons)}; {count}"

@@ -40,11 +40,6 @@ def _angle(angle: Angle) -> Json:
     return angle.twelfths if angle.twelfths is not None else [str(angle.cosine), str(angle.sine)]
 
 
-def surd_json(value: Any) -> Json:
-    """A sum of square roots as [factor, number under the root]."""
-    return [[str(q), d] for d, q in sorted(square_roots(value).items()) if q]
-
-
 def surds(numbers: Sequence[Any]) -> Triple:
     """Sums of square roots. Raises ``Unable`` for other numbers."""
     return tuple(Surd.of(square_roots(v).items()) for v in numbers)
@@ -66,7 +61,9 @@ def square_roots(value: Any) -> Terms:
     a: RealAlgebraic = value if isinstance(value, RealAlgebraic) else value.to_algebraic()
     if a.degree == 2:
         mean = Fraction(-a.minimal_polynomial[1], 2 * a.minimal_polynomial[2])
-        d, q = _root(rational((a - mean) * (a - mean)) or Fraction(0))
+        square = rational((a - mean) * (a - mean)) or Fraction(0)
+        outside = square_part(square.numerator * square.denominator)
+        d, q = square.numerator * square.denominator // outside**2, Fraction(outside, square.denominator)
         return {**({1: mean} if mean else {}), d: q if a > mean else -q}
     conjugates, result = irreducible_roots(a.poly), Terms()
     refused = Unable("poses, and certificates of joint positions, are for coordinates that are sums of square roots")
@@ -77,12 +74,6 @@ def square_roots(value: Any) -> Terms:
             raise refused
         result |= square_roots(half)
     return result
-
-
-def _root(square: Fraction) -> tuple[int, Fraction]:
-    whole = square.numerator * square.denominator
-    outside = square_part(whole)
-    return whole // outside**2, Fraction(outside, square.denominator)
 
 
 # --- real roots ------------------------------------------------------------------------------------------------------

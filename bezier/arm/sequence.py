@@ -116,7 +116,8 @@ def _layers(path: JointPath, samples: Sequence[Sample]) -> Iterator[list[Stand]]
     for sample in samples:
         solved.append([s for s in solve(path.arm, curves[sample.curve].point(sample.s)).solutions if s.allowed])
     for k, (sample, solutions) in enumerate(zip(samples, solved, strict=True)):
-        places = _places(path, sample)
+        under_way = ((run.number, run.branch(sample.curve)) for run in path.runs)
+        places = [(n, b, b.at(sample.s)) for n, b in under_way if b is not None and b.low <= sample.s <= b.high]
         around = [a for other in solved[max(k - 1, 0) : k + 2] for s in other if (a := s.angles[0]) is not None]
         taken = [(_runs(path, places, (sample.curve, sample.s), solution), solution) for solution in solutions]
         stands = [
@@ -133,25 +134,15 @@ def _layers(path: JointPath, samples: Sequence[Sample]) -> Iterator[list[Stand]]
 
 def _offered(arm: Arm, solution: Solution, around: list[float]) -> Iterator[tuple[float, ...]]:
     """The angles of a solution; where joints can be chosen, for the first one those of the neighbours, which keep its
-    limits, and the middle of what its limits leave for all others."""
-    first, *rest = (_middle(arm, solution, k) if a is None else a for k, a in enumerate(solution.angles))
+    limits, and the middle of the first range that its limits leave for all others; 0 where that has no ends, and of a
+    joint that follows another one."""
+    middles = dict[int, float]()
+    for choice in solution.choices:
+        low, high = (edge.value for edge in spans(arm.joints[choice.joint], choice)[0])
+        middles[choice.joint] = 0.0 if low is None or high is None else (low + high) / 2
+    first, *rest = (middles.get(k, 0.0) if a is None else a for k, a in enumerate(solution.angles))
     for angle in dict.fromkeys(around) if solution.angles[0] is None and around else [first]:
         yield (angle, *rest)
-
-
-def _middle(arm: Arm, solution: Solution, joint: int) -> float:
-    """The middle of the first range of a joint that can be chosen; 0 where it follows another one, or has none."""
-    for choice in solution.choices:
-        if choice.joint == joint:
-            ends = [edge.value for edge in spans(arm.joints[joint], choice)[0]]
-            return sum(v for v in ends if v is not None) / 2 if None not in ends else 0.0
-    return 0.0
-
-
-def _places(path: JointPath, sample: Sample) -> list[tuple[int, Branch, tuple[float, ...]]]:
-    """Every motion that is under way at the sample: its number, its branch, and about where it is."""
-    under_way = ((run.number, run.branch(sample.curve)) for run in path.runs)
-    return [(n, b, b.at(sample.s)) for n, b in under_way if b is not None and b.low <= sample.s <= b.high]
 
 
 def _runs(

@@ -93,7 +93,9 @@ def study(arm: Arm, curve: Bezier, also: Iterable[Number] = ()) -> Study:
     for s in ends:
         point = curve.point(s) if isinstance(s, Fraction) else ()
         answer = solve(arm, point) if point else solve_at(arm, along.place(s), (), along.reduction)
-        specials.append(Special(s, _real_reasons(critical.get(s, ()), answer), answer))
+        merging = any(solution.multiple for solution in answer.solutions)  # not only complex ones
+        reasons = (r for r in critical.get(s, ()) if r is not Reason.MERGE or merging)
+        specials.append(Special(s, tuple(reasons), answer))
     stretches = tuple(_stretches(arm, curve, ends, lambda answer: answer.count))
     within = stretches
     if arm.has_limits:
@@ -111,12 +113,6 @@ def _stretches(
         count = counted(solve(arm, curve.point(sample)))
         assert count is not None, "a point between the critical ones is not special"
         yield Stretch(low, high, count, sample)
-
-
-def _real_reasons(reasons: Sequence[Reason], answer: Inverse) -> tuple[Reason, ...]:
-    """The reasons that concern real solutions: complex ones may meet as well."""
-    merging = any(s.multiple for s in answer.solutions)
-    return tuple(r for r in reasons if r is not Reason.MERGE or merging)
 
 
 BITS = (192, 1024, 4096)

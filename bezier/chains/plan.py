@@ -108,13 +108,11 @@ class ChainPlan:
         proofs += [repair.certificate for repair in self.repairs or (self.repair,) if repair]
         proofs += [Certificate.bundle([(label, c.certificate) for label, c in listed]) for _, listed in self.excluded]
         members = [m for m in bundled(proofs).payload if isinstance(m, Labelled)]
-        return Certificate.bundle([(self._labelled(m.label), m.certificate) for m in members])
-
-    def _labelled(self, label: str) -> str:
-        """With the durations that a search picked, which the file does not say."""
-        claim, joined, change = label.partition(" with ")
+        # labels say the durations that a search picked, which the file does not
         times = f" with durations = {', '.join(map(str, self.chain.times))}" if self.searched else ""
-        return f"{claim}{times}{joined}{change}"
+        parts = (m.label.partition(" with ") for m in members)
+        labels = (f"{claim}{times}{joined}{change}" for claim, joined, change in parts)
+        return Certificate.bundle([(label, m.certificate) for label, m in zip(labels, members, strict=True)])
 
     @property
     def lines(self) -> list[str]:
@@ -171,9 +169,8 @@ class ChainPlan:
 
         cards = [Card("chain", "proved" if self.feasible else "there is none", tone(self.feasible))]
         if self.value is not None:
-            cards.append(
-                Card(self.chain.objective.value, f"{float(self.value):.10g}", note=f"least, to {self.accuracy}")
-            )
+            note = f"least, to {self.accuracy}"
+            cards.append(Card(self.chain.objective.value, f"{float(self.value):.10g}", note=note))
         cards += [Card(f"possible with {r.change}", str(r).partition(" = ")[2]) for r in self.repairs]
         lines = self.lines if shown is None else [*self.lines, str(shown)]
         return document(page(self.chain, self.curves, lines, title, cards, shown))
@@ -202,21 +199,15 @@ def planned(given: Chain) -> ChainPlan:
     least = best_within if _is_bounded(given) else best
     found = inside if isinstance(inside, Contradiction) else least(given, solved, rows, inside)
     if isinstance(found, Best):
-        curves, exact = (
-            solved.curves(found.free),
-            exactly(given, solved, rows, found, 1) if _is_quick(given) else None,
-        )
-        return ChainPlan(given, curves, found.value, found.bound, found.certificate, exact=exact)
+        # short numbers, and no bounds of length and curvature: the exact optimum is likely to take milliseconds
+        numbers = [c for p in given.points for c in p] + [given.radius_squared or Fraction(1), *given.times]
+        is_quick = not _is_bounded(given) and max(c.denominator for c in numbers) < SHORT
+        exact = exactly(given, solved, rows, found, 1) if is_quick else None
+        return ChainPlan(given, solved.curves(found.free), found.value, found.bound, found.certificate, exact=exact)
     conflict = smallest_conflict(given, solved, found)
     if _is_bounded(given):  # a repair would have to keep the bounds, too
         return ChainPlan(given, (), None, None, found.certificate, conflict)
     return ChainPlan(given, (), None, None, found.certificate, conflict, least_radius(given))
-
-
-def _is_quick(given: Chain) -> bool:
-    """Whether the exact optimum is likely to take milliseconds: short numbers, no bounds of length and curvature."""
-    numbers = [c for p in given.points for c in p] + [given.radius_squared or Fraction(1), *given.times]
-    return not _is_bounded(given) and max(c.denominator for c in numbers) < SHORT
 
 
 def _is_bounded(given: Chain) -> bool:

@@ -61,7 +61,7 @@ class Contradiction:
 
 @dataclass(frozen=True, slots=True)
 class Best:
-    """A point that keeps all conditions, and a number below which the objective cannot be. ``is_exact``: they agree."""
+    """A point that keeps all conditions, and a number below which the objective cannot be."""
 
     free: tuple[Point, ...]
     value: Fraction
@@ -69,11 +69,6 @@ class Best:
     weights: Mapping[str, Fraction]
     """The multipliers of the bound, of the conditions that have one."""
     certificate: Certificate
-
-    @property
-    def is_exact(self) -> bool:
-        """Whether this is the optimum itself."""
-        return self.value == self.bound
 
 
 def decided(chain: Chain, solved: Solved, rows: Sequence[Requirement]) -> tuple[Point, ...] | Contradiction:
@@ -231,10 +226,7 @@ def bounded(
     below = refuted(chain, size, forms, [*(weights[row.label] for row in chosen), _ONE], lowest[0], strict=1)
     detail = next((row.detail for row in chosen if row.detail), "")
     reached = [*(row.form for row in rows if not row.detail), objective.shifted(-value)]
-    proofs = [
-        (f"{LEAST}{lowest[1]}{detail}", below),
-        (f"{MOST}{value}", witness(chain, size, reached, free)),
-    ]
+    proofs = [(f"{LEAST}{lowest[1]}{detail}", below), (f"{MOST}{value}", witness(chain, size, reached, free))]
     used = {row.label: weights[row.label] for row in chosen}
     return Best(tuple(free), value, lowest[1], used, Certificate.bundle(proofs))
 

@@ -82,10 +82,9 @@ def both_sides(chain: Chain, change: str, enough: Fraction, less: Fraction) -> R
     if isinstance(inside, Contradiction) or not isinstance(none, Contradiction):
         return None
     proof = feasible(sides[0], sides[0].solved, rows[0], inside)
-    labels = [f"possible with {change} = {enough}", f"impossible with {change} = {less}"]
-    return Repair(
-        change, (enough,), less, Certificate.bundle(list(zip(labels, (proof, none.certificate), strict=True)))
-    )
+    enough_proved = f"possible with {change} = {enough}", proof
+    less_proved = f"impossible with {change} = {less}", none.certificate
+    return Repair(change, (enough,), less, Certificate.bundle([enough_proved, less_proved]))
 
 
 def least_radius(given: Chain) -> Repair | None:

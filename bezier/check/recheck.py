@@ -14,7 +14,7 @@ from collections.abc import Callable, Mapping
 from dataclasses import replace
 from fractions import Fraction
 from pathlib import Path as FilePath
-from typing import Any, TypeVar
+from typing import Any, TypeVar, cast
 
 from bezier.arm.path_report import number_in_words
 from bezier.check.agreement import same_data, same_rows, stated_problem
@@ -53,7 +53,8 @@ def recheck(channel: Channel, folder: FilePath) -> list[str]:
     """Lines saying what was checked. Raises ``CertificateRejected`` naming the first entry that is wrong."""
     _check_presence(folder)
     certificate = _certificate(folder)
-    stated = _stated(folder)
+    path = folder / PATH
+    stated = Stated(stored.table(folder / SUMMARY), stored.table(path) if path.exists() else None)
     channel.event(Event("certificates", 0, None))
     # a plan need not have any certificate, and an empty bundle proves nothing: then the other files are all there is
     verdict = verify(certificate) if certificate.payload else Verdict(True)
@@ -71,14 +72,17 @@ def recheck(channel: Channel, folder: FilePath) -> list[str]:
 
 def restored(problem: Problem, certificate: Certificate, stated: Stated) -> tuple[Plan, tuple[str, ...]]:
     """The plan that the certificates and the stated path prove, and what was checked for that."""
-    result = _of_certificate(lambda: method_for(problem).restore(problem, certificate, stated))
-    plan: Plan = result.plan
+    made = _of_certificate(lambda: method_for(problem).restore(problem, certificate, stated))
+    plan, lines = cast("tuple[Plan, tuple[str, ...]]", made)
     if problem.obstacles:
         plan = avoid.with_stated_attempts(avoid.examined(plan), stated.summary.get("attempts"))
     larger = stated_radius(stated.summary)
     plan = with_findings(plan, lambda solvable: stated_rule(problem, solvable, larger))
     whole = _of_certificate(lambda: with_stated(with_joints(with_quality(plan, certificate)), certificate))
-    return whole, (*result.lines, *_derived(whole))
+    if whole.derivations:
+        several = "s" * (len(whole.derivations) > 1)
+        lines = (*lines, f"the derivation{several} of {', '.join(whole.derivations)}: every step")
+    return whole, lines
 
 
 def _of_certificate(work: Callable[[], T]) -> T:
@@ -88,11 +92,6 @@ def _of_certificate(work: Callable[[], T]) -> T:
     except CertificateRejected as error:
         step = error.step if ".json" in error.step else f"{CERTIFICATE}: {error.step}"
         raise CertificateRejected(step, error.reason) from None
-
-
-def _derived(plan: Plan) -> list[str]:
-    count = len(plan.derivations)
-    return [f"the derivation{'s' * (count > 1)} of {', '.join(plan.derivations)}: every step"] if count else []
 
 
 def stated_radius(summary: Mapping[str, Any]) -> Fraction | None:
@@ -135,11 +134,6 @@ def _certificate(folder: FilePath) -> Certificate:
         raise CertificateRejected(f"{CERTIFICATE}: {error.step}", error.reason) from None
     except InputError as error:
         raise CertificateRejected(CERTIFICATE, str(error)) from None
-
-
-def _stated(folder: FilePath) -> Stated:
-    path = folder / PATH
-    return Stated(stored.table(folder / SUMMARY), stored.table(path) if path.exists() else None)
 
 
 def _problem(folder: FilePath, stated: Stated) -> Problem:

@@ -151,17 +151,26 @@ def compare(problem: Problem, clock: Clock | None = None, *, proofs: bool = Fals
             sides[method] = _side(problem, method, watch)
         watch.learn(method.value, sides[method].plan.outcome.value)
     parts = _Parts(watch)
-    regions = _Regions(problem, parts)
-    polygon, cubic_region = regions.part("(8)"), regions.part("(7)")
-    implied = partial(whole_curve.implications, for_method(problem, METHODS[0]), regions.plane)
+    plane = Plane.through(problem)
+
+    def part(name: str) -> PlanarRegion:
+        """The region of this formula, or why there is none."""
+        step, question = f"planar region of {name}", planar_statements(problem, plane)[name]
+        region = parts.take(step, SHARES[name], partial(_region, question, plane, watch))
+        return region or PlanarRegion(str(question), reason=parts.unfinished[step])
+
+    polygon, cubic_region = part("(8)"), part("(7)")
+    implied = partial(whole_curve.implications, for_method(problem, METHODS[0]), plane)
     answers = parts.take("(8) lies in (8*)", 3, lambda seconds: implied(timeout=seconds))
     plan = sides[PlanMethod.QUADRATIC].plan
-    volume = parts.take("volume of the region of (8)", 2, lambda seconds: _volume(plan, seconds))
+    assert isinstance(plan, QuadraticPlan)
+    space = plan.region
+    volume = parts.take("volume of the region of (8)", 2, lambda s: Enclosure(*space.volume(VOLUME_REL, timeout=s)))
     theorem = parts.take("existence theorem of (7)", 2, lambda seconds: existence(timeout=seconds))
     if theorem is None:
         theorem = Existence(sentence(), None, "")
     contained = None if answers is None else all(answer.truth for answer in answers.values())
-    planar = Planar(regions.plane, polygon, regions.part("(8*)"), cubic_region, contained, answers or {})
+    planar = Planar(plane, polygon, part("(8*)"), cubic_region, contained, answers or {})
     result: tuple[dict[str, Derived], dict[str, str]] | None = None
     if proofs:
         eliminations = {name: answer for side in sides.values() for name, answer in side.plan.eliminations.items()}
@@ -227,25 +236,6 @@ def _side(problem: Problem, method: PlanMethod, clock: Clock) -> Side:
     return Side(replace(plan, seconds=dict(watch.seconds)), quality)
 
 
-@dataclass(frozen=True, slots=True)
-class _Regions:
-    """The planar regions of a problem, each as a part."""
-
-    problem: Problem
-    parts: _Parts
-
-    @property
-    def plane(self) -> Plane:
-        """Where they are."""
-        return Plane.through(self.problem)
-
-    def part(self, name: str) -> PlanarRegion:
-        """The region of this formula, or why there is none."""
-        step, question = f"planar region of {name}", planar_statements(self.problem, self.plane)[name]
-        result = self.parts.take(step, SHARES[name], partial(_region, question, self.plane, self.parts.clock))
-        return result or PlanarRegion(str(question), reason=self.parts.unfinished[step])
-
-
 def planar_statements(problem: Problem, plane: Plane) -> dict[str, Statement]:
     """The conditions on Q1 in the plane: free variables q1u, q1v."""
     first, second = (for_method(problem, method) for method in METHODS)
@@ -308,9 +298,3 @@ def _measured(formula: Formula, most: float | None, channel: Channel) -> tuple[q
         region.bounds(region.order[0])
     channel.fact("region", region)
     return region, convex_area(region, AREA_REL)
-
-
-def _volume(plan: Plan, seconds: float) -> Enclosure:
-    """Of the region of Q1 in space."""
-    assert isinstance(plan, QuadraticPlan)
-    return Enclosure(*plan.region.volume(VOLUME_REL, timeout=seconds))

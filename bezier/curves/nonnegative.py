@@ -68,7 +68,8 @@ def decide(b: Sequence[Any]) -> Nonnegative | Negative:
     if isinstance(outcome, Negative):
         return outcome
     if outcome is not None:
-        return Nonnegative(outcome, _end_touches(whole, outcome))
+        ends = sorted({end for box in outcome for end in box})  # no other place can be a zero
+        return Nonnegative(outcome, tuple((t, t) for t in ends if is_zero(bs.value(whole, t))))
     events = events_of((whole,), NEAR)
     for t in (rational_between(one.t[1], two.t[0]) for one, two in pairwise(events)):
         if sign(here := bs.value(whole, t)) < 0:
@@ -99,12 +100,6 @@ def subdivided(b: bs.Coefficients, depth: int) -> tuple[Interval, ...] | Negativ
         todo.append((right, middle, high, level + 1))
         todo.append((left, low, middle, level + 1))
     return tuple(done)
-
-
-def _end_touches(b: bs.Coefficients, boxes: Sequence[Interval]) -> tuple[Interval, ...]:
-    """The zeros of p where every box has coefficients >= 0: only ends of boxes can be zeros."""
-    ends = sorted({end for box in boxes for end in box})
-    return tuple((t, t) for t in ends if is_zero(bs.value(b, t)))
 
 
 WIDTH = Fraction(1, 2**80)

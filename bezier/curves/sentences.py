@@ -157,7 +157,8 @@ class CurveSentence:
         first = written("linear equation solved", (), self.formula, after, (), linear)
         values: list[Json] = [str(t)]
         if self.generator:
-            low, high = (str(_zero(end)) for end in self.generator[1:])
+            rows = ((c.constant_value() for c in end.coefficients(0)) for end in self.generator[1:])
+            low, high = (str(Fraction(-rest, lead)) for rest, lead in rows)
             polynomial = poly_to_text(self.generator[0].convert(Ring.of(("root",))))
             values.insert(0, {"polynomial": polynomial, "interval": [low, high]})
         evidence: Json = {"order": list(self.parameters), "values": values}
@@ -272,12 +273,6 @@ def _total(ring: Ring, terms: Iterable[tuple[int, Poly]]) -> Poly:
 def _above(x: Poly, value: Fraction) -> Poly:
     """Positive where x is above the value."""
     return x * value.denominator - value.numerator
-
-
-def _zero(linear: Poly) -> Fraction:
-    """Where a linear polynomial in one variable vanishes."""
-    rest, lead = (c.constant_value() for c in linear.coefficients(linear.variables[0]))
-    return Fraction(-rest, lead)
 
 
 def _divided(poly: Poly, p: Poly, i: int) -> tuple[int, Poly, Poly]:

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import json
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from fractions import Fraction
 from functools import lru_cache
 from math import ceil, hypot
@@ -98,12 +98,12 @@ def with_joints(plan: Plan) -> Plan:
 
 def rounded(curve: Bezier) -> Bezier:
     """The curve with irrational control points rounded to multiples of ``GRAIN``."""
-    return Bezier(tuple(tuple(_near(c) for c in point) for point in curve.points))
 
+    def near(value: Any) -> Fraction:
+        number = rational(value)
+        return number if number is not None else round(sum(bounds(value), Fraction(0)) / 2 / GRAIN) * GRAIN
 
-def _near(value: Any) -> Fraction:
-    number = rational(value)
-    return number if number is not None else round(sum(bounds(value), Fraction(0)) / 2 / GRAIN) * GRAIN
+    return Bezier(tuple(tuple(map(near, point)) for point in curve.points))
 
 
 def is_rounded(plan: Plan) -> bool:
@@ -118,33 +118,26 @@ def files(plan: Plan) -> dict[str, str]:
 
 @lru_cache(maxsize=2)
 def _texts(plan: JointPlan, is_rounded: bool) -> tuple[tuple[str, str], ...]:
-    written = _Written.of(plan, lambda accepted: {"rounded": is_rounded})
-    if written.listed and not written.verdict.accepted:
-        raise CertificateRejected(f"{FILES[2]}: {written.verdict.step}", written.verdict.reason)
-    return tuple(written.texts.items())
+    texts, _, listed, verdict = _written(plan, lambda accepted: {"rounded": is_rounded})
+    if listed and not verdict.accepted:
+        raise CertificateRejected(f"{FILES[2]}: {verdict.step}", verdict.reason)
+    return tuple(texts.items())
 
 
-@dataclass(frozen=True, slots=True)
-class _Written:
+def _written(
+    plan: JointPlan, more: Callable[[bool], Mapping[str, Any]]
+) -> tuple[dict[str, str], dict[str, Any], Labelled, Verdict]:
     """The files about joints by name, what ``joints.json`` says, the certificates, and whether they are accepted."""
-
-    texts: dict[str, str]
-    data: dict[str, Any]
-    listed: Labelled
-    verdict: Verdict
-
-    @staticmethod
-    def of(plan: JointPlan, more: Callable[[bool], Mapping[str, Any]]) -> _Written:
-        table, summary, certificate = FILES
-        listed = certificates(plan.path)
-        bundle = Certificate.bundle(listed)
-        verdict = verify(bundle)
-        data = {**plans.to_json(plan), **more(verdict.accepted)}
-        data["without_certificate"] = without_certificate(plan.path, listed)
-        texts = {summary: json.dumps(data, indent=1, ensure_ascii=False) + "\n", certificate: bundle.to_json()}
-        if plan.sequence is not None:
-            texts[table] = plans.to_csv(plan)
-        return _Written(texts, data, listed, verdict)
+    table, summary, certificate = FILES
+    listed = certificates(plan.path)
+    bundle = Certificate.bundle(listed)
+    verdict = verify(bundle)
+    data = {**plans.to_json(plan), **more(verdict.accepted)}
+    data["without_certificate"] = without_certificate(plan.path, listed)
+    texts = {summary: json.dumps(data, indent=1, ensure_ascii=False) + "\n", certificate: bundle.to_json()}
+    if plan.sequence is not None:
+        texts[table] = plans.to_csv(plan)
+    return texts, data, listed, verdict
 
 
 def json_entries(plan: Plan) -> dict[str, Any]:
@@ -192,11 +185,11 @@ def joints(
     """Plan the joints along the curves of ``file``, write the files into ``folder``, whose place will be ``target``;
     what to print, as data and as lines, and whether the arm follows."""
     plan = plans.joint_plan(arm, curves, law, duration, samples)
-    written = _Written.of(plan, lambda accepted: {"certified": accepted})
-    for name, text in {**written.texts, PAGE: render(plan, file)}.items():
+    texts, data, listed, verdict = _written(plan, lambda accepted: {"certified": accepted})
+    for name, text in {**texts, PAGE: render(plan, file)}.items():
         (folder / name).write_text(text, encoding="utf-8")
-    lines = [*plans.in_words(plan), *evidence.in_words(plan.path, written.listed, written.verdict)]
-    return written.data, [*lines, f"open {target / PAGE}"], plan.is_followed
+    lines = [*plans.in_words(plan), *evidence.in_words(plan.path, listed, verdict)]
+    return data, [*lines, f"open {target / PAGE}"], plan.is_followed
 
 
 def render(plan: JointPlan, file: str) -> str:

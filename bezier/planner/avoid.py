@@ -16,7 +16,6 @@ from bezier.curves.scalar import add
 from bezier.input.toml_table import Table
 from bezier.obstacles import survey
 from bezier.obstacles.clearance import Clear, ClearanceArgument
-from bezier.obstacles.survey import Finding
 from bezier.planner.derivations import listed
 from bezier.planner.table import method_for
 from bezier.plans import Attempt, Clock, Outcome, Plan
@@ -30,6 +29,7 @@ METHODS = (PlanMethod.QUADRATIC, PlanMethod.CUBIC, PlanMethod.SINGLE)
 
 ENDS = (Outcome.SOLVED, Outcome.NEAR_OPTIMAL, Outcome.BLOCKED, Outcome.INFEASIBLE)
 """What an attempt can end with, the best first: at most one of the first two, and that is the last attempt."""
+FINER = (ClearanceArgument.SUBDIVISION, ClearanceArgument.ROOTS)
 AS_GIVEN = "as given"
 """The first attempt."""
 NOT_FOUND = "no path found: every path that was tried MEETS an obstacle"
@@ -77,20 +77,12 @@ def examined(plan: Plan) -> Plan:
     result = survey.certificates(findings)
     checks = {**plan.checks, "clearance": qe.verify(qe.Certificate.bundle(result))} if result else plan.checks
     certificate = qe.Certificate.bundle([*listed(plan.certificate), *result])
-    remarks = plan.remarks + tuple(_polygon_remark(f) for f in findings if _needed_more(f))
+    remarks = plan.remarks
+    for f in findings:
+        if isinstance(f.outcome, Clear) and f.outcome.argument in FINER:
+            unseen = f"the control polygon of {f.name} does not show that it stays clear of {f.obstacle.name}"
+            remarks += (f"{unseen}; the curve itself is proved to",)
     return replace(plan, findings=findings, certificate=certificate, checks=checks, remarks=remarks)
-
-
-def _needed_more(finding: Finding) -> bool:
-    outcome = finding.outcome
-    return isinstance(outcome, Clear) and outcome.argument in (ClearanceArgument.SUBDIVISION, ClearanceArgument.ROOTS)
-
-
-def _polygon_remark(finding: Finding) -> str:
-    return (
-        f"the control polygon of {finding.name} does not show that it stays clear of {finding.obstacle.name};"
-        " the curve itself is proved to"
-    )
 
 
 def _detail(plan: Plan) -> str:

@@ -6,20 +6,16 @@ import json
 import time
 from dataclasses import replace
 from pathlib import Path as FilePath
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from bezier.planner import derivations
-from bezier.planner.outputs import REPORT, SUMMARY, summary, write_data, write_texts
+from bezier.planner.outputs import REPORT, SUMMARY, data_texts, summary, write_texts
 from bezier.planner.planning import make_plan
 from bezier.planner.table import method_for
 from bezier.planner.words import lines
 from bezier.plans import Clock, Plan
 from bezier.problem import Problem
 from qe.processes.channel import Channel
-
-if TYPE_CHECKING:
-    from bezier.pictures.picture import Drawing
-
 
 CLEARANCE = "clearance.png"
 
@@ -29,13 +25,17 @@ def write_folder(
 ) -> tuple[list[str], dict[str, Any]]:
     """All files into ``folder``, whose place will be ``target``; their names, and what the summary says."""
     method = method_for(made.problem)
-    files = write_data(made, folder)
+    files = write_texts(folder, data_texts(made))
     drawing = None
     if plots:
         with clock.step("pictures"):
             drawing = method.draw(made, folder)
             if made.findings:
-                drawing = _with_clearances(drawing, made, folder)
+                from bezier.pictures import charts
+
+                panels = charts.clearance(made.findings, drawing.picture.obstacles)
+                drawn = charts.saved(panels, folder / CLEARANCE)
+                drawing = replace(drawing, clearance=drawn, files=(*drawing.files, CLEARANCE))
         files += drawing.files
     with clock.step("report"):
         from bezier.report.page import render
@@ -46,14 +46,6 @@ def write_folder(
     text = json.dumps(entries, indent=1, ensure_ascii=False)
     (folder / SUMMARY).write_text(text + "\n", encoding="utf-8")
     return files, entries
-
-
-def _with_clearances(drawing: Drawing, made: Plan, folder: FilePath) -> Drawing:
-    """The drawing with the chart of heights and distances to the obstacles."""
-    from bezier.pictures import charts
-
-    panels = charts.clearance(made.findings, drawing.picture.obstacles)
-    return replace(drawing, clearance=charts.saved(panels, folder / CLEARANCE), files=(*drawing.files, CLEARANCE))
 
 
 def plan(

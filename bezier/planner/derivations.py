@@ -18,7 +18,7 @@ from qe.api.verify import with_derivation
 from qe.certify.claims import is_about
 from qe.errors import CertificateRejected
 from qe.formula.syntax import Formula
-from qe.proof.certificate import Certificate, Kind, Labelled
+from qe.proof.certificate import Certificate, Kind
 
 CHECKED = "Every step was checked: the evidence is in {0}, and qe check {0} checks it again."
 CERTIFICATE = "certificate.json"
@@ -99,7 +99,12 @@ def with_stated(plan: Plan, certificate: Certificate) -> Plan:
     for member in certificate.payload if isinstance(certificate.payload, tuple) else ():
         if member.label.startswith(PREFIX):
             name = member.label.removeprefix(PREFIX)
-            _check_question(member, known.get(name))
+            question, given = known.get(name), member.certificate
+            if question is None:
+                raise CertificateRejected(member.label, "this problem has no question of this name")
+            if given.kind != Kind.DERIVATION or is_about(given, question) is None:
+                expected = "expected a derivation that begins with the question of this problem"
+                raise CertificateRejected(member.label, expected)
             result[name] = Derived(member.certificate)
     return _with(plan, {name: result[name] for name in known if name in result})  # in the order of planning
 
@@ -109,10 +114,3 @@ def questions(plan: Plan) -> dict[str, Formula]:
     radius = {name: statement.formula for name, statement in radius_rule.questions(plan.problem).items()}
     obstacles = {name: answer.question for name, answer in of_obstacles(plan.problem.obstacles).items()}
     return {**method_for(plan.problem).questions(plan.problem), **radius, **obstacles}
-
-
-def _check_question(member: Labelled, question: Formula | None) -> None:
-    if question is None:
-        raise CertificateRejected(member.label, "this problem has no question of this name")
-    if member.certificate.kind != Kind.DERIVATION or is_about(member.certificate, question) is None:
-        raise CertificateRejected(member.label, "expected a derivation that begins with the question of this problem")

@@ -26,7 +26,7 @@ from bezier.planner import arm, avoid
 from bezier.planner.table import method_for
 from bezier.planner.words import why_not
 from bezier.plans import Plan
-from bezier.problem import Problem, to_json
+from bezier.problem import to_json
 from qe.errors import InputError
 
 DERIVATION = re.compile(r"(compare_)?derivation_[1-9][0-9]*\.html")
@@ -52,7 +52,7 @@ def all_or_none(target: FilePath) -> Iterator[FilePath]:
     Raises ``InputError`` at once when ``target`` cannot be written, so that no work is done in vain. If the
     block fails, ``target`` is as before.
     """
-    parent = _existing_parent(target)
+    parent = next(folder for folder in target.absolute().parents if folder.exists() or folder == folder.parent)
     if target.exists() and not target.is_dir():
         raise InputError(f"--out {target}: expected a folder, found a file")
     if not parent.is_dir() or not os.access(parent, os.W_OK | os.X_OK):
@@ -68,13 +68,6 @@ def all_or_none(target: FilePath) -> Iterator[FilePath]:
         _move(fresh, target)
     finally:
         shutil.rmtree(fresh, ignore_errors=True)
-
-
-def _existing_parent(target: FilePath) -> FilePath:
-    parent = target.absolute().parent
-    while not parent.exists() and parent != parent.parent:
-        parent = parent.parent
-    return parent
 
 
 def _move(fresh: FilePath, target: FilePath) -> None:
@@ -138,7 +131,8 @@ def facts(plan: Plan) -> dict[str, Any]:
         **motion.json_entries(plan.quality),
         **avoid.json_entries(plan),
         **arm.json_entries(plan),
-        **_decided(plan),
+        **({} if plan.radius_rule is None else {"radius_rule": plan.radius_rule.to_json()}),
+        **({} if plan.heights is None else {"heights": heights.to_json(plan.heights)}),
         "problem": to_json(problem),
         "notes": [*problem.notes, *plan.remarks],
         "not_certified": list(plan.not_certified),
@@ -149,21 +143,6 @@ def facts(plan: Plan) -> dict[str, Any]:
         data["bound"] = described(plan.bound)
     if not plan.outcome.is_success and not data.get("reason"):
         data["reason"] = why_not(plan)
-    return data
-
-
-def problem_json(problem: Problem) -> str:
-    """``problem.json``: the problem in exact numbers; every other file has to be about it."""
-    return json.dumps(to_json(problem), indent=1, ensure_ascii=False) + "\n"
-
-
-def _decided(plan: Plan) -> dict[str, Any]:
-    """What was decided about the radius and the heights."""
-    data: dict[str, Any] = {}
-    if plan.radius_rule is not None:
-        data["radius_rule"] = plan.radius_rule.to_json()
-    if plan.heights is not None:
-        data["heights"] = heights.to_json(plan.heights)
     return data
 
 
@@ -239,17 +218,13 @@ def path_csv(path: Path) -> str:
 
 def data_texts(plan: Plan) -> dict[str, str]:
     """The files that carry exact data, by name."""
-    texts = {"certificate.json": plan.certificate.to_json(), PROBLEM: problem_json(plan.problem)}
+    problem = json.dumps(to_json(plan.problem), indent=1, ensure_ascii=False) + "\n"
+    texts = {"certificate.json": plan.certificate.to_json(), PROBLEM: problem}
     texts |= method_for(plan.problem).files(plan)
     if plan.path is not None:
         texts["path.json"] = path_text(plan, plan.path)
         texts["path.csv"] = path_csv(plan.path)
     return {**texts, **motion.files(plan.path, plan.quality), **arm.files(plan)}
-
-
-def write_data(plan: Plan, folder: FilePath) -> list[str]:
-    """Write the files that carry exact data; returns their names."""
-    return write_texts(folder, data_texts(plan))
 
 
 def write_texts(folder: FilePath, texts: Mapping[str, str]) -> list[str]:

@@ -20,7 +20,7 @@ from bezier.curves.enclosure import root_above, root_below
 from bezier.curves.scalar import Vector, dot, exactly, same
 from bezier.curves.workspace import Workspace
 from bezier.methods.control import statements as st
-from bezier.methods.control.system import System, coordinates
+from bezier.methods.control.system import coordinates
 from bezier.methods.cubic import formula as cubic
 from bezier.methods.quadratic import formula as quadratic
 from bezier.plans import RadiusRule
@@ -127,7 +127,7 @@ def _short_decimal(low: Fraction, high: Fraction) -> Fraction:
 def helps(problem: Problem, radius: Fraction, remaining: Limit = unlimited) -> bool:
     """Whether the optimum with this radius exists, has an accepted certificate and differs from both via points."""
     changed = replace(problem, workspace=Workspace(problem.workspace.kind, radius * radius), radius_is_auto=False)
-    system = _system(changed)
+    system = (cubic if problem.method is PlanMethod.CUBIC else quadratic).system(changed)
     optimum = qe.minimize(
         system.objective().polynomial, system.in_free_points().formula, method="convex", timeout=remaining()
     )
@@ -139,9 +139,3 @@ def helps(problem: Problem, radius: Fraction, remaining: Limit = unlimited) -> b
         raise InternalError("the optimum violates a condition")
     pairs = zip(NEXT[problem.method], problem.via, strict=True)
     return not any(same(free[name], via) for name, via in pairs)
-
-
-def _system(problem: Problem) -> System:
-    if problem.method is PlanMethod.CUBIC:
-        return cubic.system(problem)
-    return quadratic.system(problem)

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 from typing import Any
 
 from bezier.arm import joint_plan as plans
@@ -19,10 +18,7 @@ WORDS = {True: "kept", False: "EXCEEDED", None: "not proved"}
 
 def moving(plan: JointPlan | None) -> dict[str, Any] | None:
     """The arm's frames for a scene; None where nothing moves."""
-    if plan is None or plan.sequence is None:
-        return None
-    data: dict[str, Any] = json.loads(plans.animation(plan))
-    return data
+    return None if plan is None or plan.sequence is None else plans.animation(plan)
 
 
 def section(plan: JointPlan) -> Section:
@@ -45,7 +41,10 @@ def section(plan: JointPlan) -> Section:
         head = ("joint", "velocity at all times", "acceleration at all times", "limits")
         content.append(html.table(head, _extremes(plan.motion)))
         content.append(html.note("Proved over the whole path by interval enclosures of the joint velocities."))
-    content += [html.note(f"{line}.") for line in (_motions(plan), *excesses_in_words(path), *plan.remarks)]
+    motions = f"{number_in_words(path)} from start to goal"
+    if plan.sequence is not None and plan.sequence.run:
+        motions += f"; motion {plan.sequence.run} has the least total change"
+    content += [html.note(f"{line}.") for line in (motions, *excesses_in_words(path), *plan.remarks)]
     return Section("joints", f"The joints of {path.arm.name}", html.joined(*content), short="joints")
 
 
@@ -58,10 +57,8 @@ def page(plan: JointPlan, file: str) -> Page:
     if arm is not None:
         from bezier.pictures import scene
 
-        words, legend = (
-            f"{plan.path.arm.name} following the path",
-            [("the path", "var(--r)"), ("the arm", "var(--ink)")],
-        )
+        words = f"{plan.path.arm.name} following the path"
+        legend = [("the path", "var(--r)"), ("the arm", "var(--ink)")]
         first = scene_box(scene.text(scene.arm_scene(arm)), words, "", legend, moving=True)
     return Page(
         title=plan.path.arm.name,
@@ -85,24 +82,16 @@ def _cards(plan: JointPlan) -> list[Card]:
         result.append(Card("joint sequence", f"{count} positions", note=f"{len(plan.path.arm.joints)} joints"))
     if plan.motion is not None and plan.motion.kept:
         kept = plan.motion.keeps_limits
-        result.append(
-            Card("limits of the joints", "kept, proved" if kept else "not proved to be kept", html.tone(kept))
-        )
+        said = "kept, proved" if kept else "not proved to be kept"
+        result.append(Card("limits of the joints", said, html.tone(kept)))
     return result
-
-
-def _motions(plan: JointPlan) -> str:
-    run = plan.sequence.run if plan.sequence is not None else None
-    text = f"{number_in_words(plan.path)} from start to goal"
-    return text + (f"; motion {run} has the least total change" if run else "")
 
 
 def _extremes(motion: JointMotion) -> list[tuple[Text, ...]]:
     rows: list[tuple[Text, ...]] = []
     for joint, v, a in zip(motion.joints, motion.speeds, motion.accelerations, strict=True):
-        kept = [
-            motion.kept[key] for key in (f"{joint.name} velocity", f"{joint.name} acceleration") if key in motion.kept
-        ]
+        keys = (f"{joint.name} velocity", f"{joint.name} acceleration")
+        kept = [motion.kept[key] for key in keys if key in motion.kept]
         worst = next((k for k in (False, None) if k in kept), True)
         said = toned(WORDS[worst], worst is True) if kept else "none given"
         unit = "rad" if joint.motion is JointKind.REVOLUTE else "mm"

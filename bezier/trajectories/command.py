@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
 from pathlib import Path
@@ -11,7 +11,6 @@ from typing import Any
 import qe
 from bezier.arm.model import Arm
 from bezier.arm.tip import tip_of
-from bezier.curves.curve import Bezier
 from bezier.curves.sentences import verified
 from bezier.input import stored
 from bezier.input.numbers import describe
@@ -74,9 +73,8 @@ def scene_of(table: Table, moving: Trajectory) -> Scene:
     """
     if len(moving.names) not in (2, 3):
         raise InputError(f"--scene: expected a trajectory of 2 or 3 axes, found {len(moving.names)}")
-    vectors = (
-        entry.values.get(key) for entry in table.tables("obstacle") for key in ("centre", "low", "normal", "start")
-    )
+    keys = ("centre", "low", "normal", "start")
+    vectors = (entry.values.get(key) for entry in table.tables("obstacle") for key in keys)
     size = 3 if any(isinstance(v, list) and len(v) == 3 for v in vectors) else len(moving.names)
     ends = ((row, t) for row, t in ((moving.pieces[0], Fraction(0)), (moving.pieces[-1], moving.lengths[-1])))
     start, goal = ((*(p(t) for p in row), Fraction(0))[:size] for row, t in ends)
@@ -97,10 +95,6 @@ def outside(scene: Scene) -> list[Obstacle]:
     """What is outside of a workspace, if there is one."""
     pieces = tuple(map(Piece, beyond(scene)))
     return [Obstacle("the outside of the workspace", ObstacleKind.FORMULA, pieces)] if pieces else []
-
-
-def _curves(moving: Trajectory) -> Iterator[tuple[int, Bezier]]:
-    return enumerate(map(moving.curve, range(len(moving.pieces))), start=1)
 
 
 def certify(
@@ -177,7 +171,8 @@ class Certified:
             scene = scene_of(table, trajectory)
             obstacles, inside = in_the_way(scene, len(trajectory.names))
             limits = [*limits, *inside]
-            findings = survey.survey({f"piece {i}": c for i, c in _curves(trajectory)}, obstacles, distances=False)
+            curves = {f"piece {i + 1}": trajectory.curve(i) for i in range(len(trajectory.pieces))}
+            findings = survey.survey(curves, obstacles, distances=False)
         near = None if path is None else Along.of(trajectory, path, within, robot)
         return Certified(decided(trajectory, limits, tolerance), findings, near, scene, links)
 

@@ -76,7 +76,8 @@ def members(verdict: Verdict) -> list[tuple[str, Certificate]]:
     for outcome in verdict.outcomes:
         if not outcome.is_kept:
             label, _, sentence = _broken(trajectory, outcome)
-            listed.append((label, _instance(sentence, _time(trajectory, outcome))))
+            evidence: Evidence = {"order": ["t"], "values": [str(_time(trajectory, outcome))]}
+            listed.append((label, Certificate.step("instance", RING.names, sentence, TRUE, evidence)))
     if verdict.factor is not None:
         limits = [outcome.limit for outcome in verdict.outcomes]
         for (label, excesses, sentence), length in zip(
@@ -100,11 +101,6 @@ def _time(trajectory: Trajectory, outcome: Outcome) -> Fraction:
             if 0 <= t <= trajectory.lengths[peak.piece] and peak.sign * p(t) > outcome.bound:
                 return t
     raise Unable("a limit is exceeded by too little for a certificate")
-
-
-def _instance(sentence: Formula, at: Fraction) -> Certificate:
-    evidence: Evidence = {"order": ["t"], "values": [str(at)]}
-    return Certificate.step("instance", RING.names, sentence, TRUE, evidence)
 
 
 def refuted(sentence: Formula, excesses: Sequence[Poly], length: Fraction) -> Certificate:

@@ -15,7 +15,7 @@ from bezier.methods.control.system import System
 from bezier.methods.control.terms import named_multipliers
 from bezier.methods.cubic import formula as cubic
 from bezier.paths.path import Path, Slowest, slowest_of
-from bezier.plans import Begun, Clock, Method, Restored, Stated, Story
+from bezier.plans import Begun, Clock, Method, Stated, Story
 from bezier.problem import Problem
 from bezier.report import html, mathml, parts
 from bezier.report.first import region_box
@@ -73,23 +73,16 @@ def questions(problem: Problem) -> dict[str, Formula]:
     return {FORMULA: cubic.system(problem).statement().formula}
 
 
-def restored_plan(problem: Problem, certificate: Certificate) -> CubicPlan:
-    """The plan that the certificates of a folder prove. Raises ``CertificateRejected``."""
-    system = cubic.system(problem)
-    optimum = optimal_path.restored_optimum(system, certificate)
-    fields = optimal_path.drawn(problem, system, optimum)
-    fields |= _speed_fields(problem, system, fields["path"])
-    return CubicPlan(**optimal_path.restored(fields, _members(system, optimum.certificate)))
-
-
 def _members(system: System, certificate: Certificate) -> optimal_path.Members:
     return [optimal_path.elimination(system), *optimal_path.optimum_members(certificate)]
 
 
 def _speed_fields(problem: Problem, system: System, path: Path | None) -> dict[str, Any]:
     """What only the plan of this method has."""
-    slowest = slowest_of(path) if path else {}
-    return {"slowest": slowest, "trivial": _trivial(problem, system), "remarks": _remarks(problem)}
+    points = system.points(cubic.trivial_choice(problem))
+    there = optimal_path.path_through(problem, system, points)
+    trivial = Trivial(there, system.violated(points), slowest_of(there))
+    return {"slowest": slowest_of(path) if path else {}, "trivial": trivial, "remarks": _remarks(problem)}
 
 
 def _remarks(problem: Problem) -> tuple[str, ...]:
@@ -102,12 +95,6 @@ def _remarks(problem: Problem) -> tuple[str, ...]:
             " speed in the direction from Q0 to R0"
         )
     return tuple(result)
-
-
-def _trivial(problem: Problem, system: System) -> Trivial:
-    points = system.points(cubic.trivial_choice(problem))
-    path = optimal_path.path_through(problem, system, points)
-    return Trivial(path, system.violated(points), slowest_of(path))
 
 
 NAMES = ("P0", "Q0", "R0", "R3")
@@ -274,16 +261,20 @@ def draw(plan: CubicPlan, folder: FilePath) -> Drawing:
     return Drawing(picture, (*written, "motion.png"), plot.views(picture), over_time)
 
 
-def restore(problem: Problem, certificate: Certificate, stated: Stated) -> Restored[CubicPlan]:
+def restore(problem: Problem, certificate: Certificate, stated: Stated) -> tuple[CubicPlan, tuple[str, ...]]:
     """The plan that the certificates of a folder prove; nothing else in the folder is needed for it."""
-    plan = restored_plan(problem, certificate)
+    system = cubic.system(problem)
+    optimum = optimal_path.restored_optimum(system, certificate)
+    fields = optimal_path.drawn(problem, system, optimum)
+    fields |= _speed_fields(problem, system, fields["path"])
+    plan = CubicPlan(**optimal_path.restored(fields, _members(system, optimum.certificate)))
     lines = [
         "the elimination belongs to formula (7) of this problem",
         "the optimum belongs to formula (7) of this problem",
     ]
     if problem.join_speed and plan.path is not None:
         lines.append(f"the conditions for a speed of at least {problem.join_speed} at both joins hold")
-    return Restored(plan, tuple(lines))
+    return plan, tuple(lines)
 
 
 CUBIC: Method[CubicPlan] = Method(

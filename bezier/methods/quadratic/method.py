@@ -13,14 +13,12 @@ from bezier.curves.scalar import decimal_text, exact_text, with_decimal
 from bezier.methods.quadratic import formula as quadratic
 from bezier.methods.quadratic import plan as quadratic_plan
 from bezier.methods.quadratic.plan import FORMULA, QuadraticPlan, above_label
-from bezier.plans import Method, Restored, Stated, Story
-from bezier.problem import Problem
+from bezier.plans import Method, Story
 from bezier.report import html, mathml, parts
 from bezier.report.first import region_box
 from bezier.report.html import Section, Text, toned
 from bezier.report.parts import norm, shown
 from qe.exact.radicals import root_text
-from qe.proof.certificate import Certificate
 
 if TYPE_CHECKING:
     from bezier.pictures.picture import Drawing
@@ -276,13 +274,6 @@ def draw(plan: QuadraticPlan, folder: FilePath) -> Drawing:
     return Drawing(picture, ("region.png", "path.png"), plot.views(picture))
 
 
-def restore(problem: Problem, certificate: Certificate, stated: Stated) -> Restored[QuadraticPlan]:
-    """The plan that the certificates of a folder prove; nothing else in the folder is needed for it."""
-    plan = quadratic_plan.restore(problem, certificate)
-    lines = ("the region belongs to formula (8) of this problem", "the optimum belongs to this problem")
-    return Restored(plan, lines)
-
-
 QUADRATIC: Method[QuadraticPlan] = Method(
     begin=quadratic_plan.begin,
     finish=quadratic_plan.finish,
@@ -293,6 +284,6 @@ QUADRATIC: Method[QuadraticPlan] = Method(
     draw=draw,
     hatted_names=True,
     story=story,
-    restore=restore,
+    restore=quadratic_plan.restore,
     questions=quadratic_plan.questions,
 )

@@ -16,7 +16,7 @@ from bezier.methods.control.system import System
 from bezier.methods.control.terms import check_optimum_of, coordinate_terms, member
 from bezier.methods.quadratic import formula as quadratic
 from bezier.paths.path import Path, Proof, prove
-from bezier.plans import Begun, Clock
+from bezier.plans import Begun, Clock, Stated
 from bezier.problem import Problem
 from qe.certify.claims import is_about
 from qe.errors import CertificateRejected, InternalError, Unable
@@ -149,7 +149,7 @@ def above_certificates(problem: Problem, clock: Clock) -> Iterator[tuple[str, qe
 def example_certificate(
     problem: Problem, example: Mapping[str, Vector], certificate: qe.Certificate | None
 ) -> qe.Certificate:
-    """The witness that the printed formula allows the example. ``found``: the engine's own, for irrational examples."""
+    """The witness that the printed formula allows the example; the engine's own for irrational examples."""
     values = [rational(c) for name in EXAMPLE_ORDER for c in example[name]]
     known = [v for v in values if v is not None]
     if len(known) == len(values):
@@ -160,15 +160,16 @@ def example_certificate(
     return certificate
 
 
-def restore(problem: Problem, certificate: Certificate) -> QuadraticPlan:
-    """The plan that the certificates of a folder prove. Raises ``CertificateRejected``."""
+def restore(problem: Problem, certificate: Certificate, stated: Stated) -> tuple[QuadraticPlan, tuple[str, ...]]:
+    """The plan that the certificates of a folder prove; nothing else in the folder is needed for it."""
     system = quadratic.system(problem)
     optimum = optimal_path.restored_optimum(system, certificate)
     fields = optimal_path.drawn(problem, system, optimum)
     region = _region(system, certificate, infeasible=fields["path"] is None)
     gap = _restored_gap(problem, certificate, fields["path"])
     fields |= {"region": region, "gap": gap, "balls": quadratic.three_balls(problem)}
-    return QuadraticPlan(**optimal_path.restored(fields, certificates(system, region, optimum, gap)))
+    plan = QuadraticPlan(**optimal_path.restored(fields, certificates(system, region, optimum, gap)))
+    return plan, ("the region belongs to formula (8) of this problem", "the optimum belongs to this problem")
 
 
 def _region(system: System, certificate: Certificate, *, infeasible: bool) -> qe.Region:
@@ -201,7 +202,9 @@ def _restored_gap(problem: Problem, certificate: Certificate, path: Path | None)
     labels = [item.label for item in certificate.payload] if isinstance(certificate.payload, tuple) else []
     if BELOW in labels:
         example = member(certificate, BELOW, "instance")
-        _check_example(problem, example)
+        order = quadratic.FREE + quadratic.QUANTIFIED
+        if is_about(example, exists(order, optimal_path.body_of(quadratic.leaving(problem), order))) != TRUE:
+            raise CertificateRejected(BELOW, "not the question of this problem")
         return Gap({}, None, chosen, ((BELOW, example),))
     printed, result = quadratic.printed(problem), []
     for point in quadratic.SHAPE.inner:
@@ -213,10 +216,3 @@ def _restored_gap(problem: Problem, certificate: Certificate, path: Path | None)
             raise CertificateRejected(f"{label}: value", "the control point can lie below the table")
         result.append((label, highest))
     return Gap(None, None, chosen, tuple(result))
-
-
-def _check_example(problem: Problem, example: Certificate) -> None:
-    """The witness is about the question of this problem."""
-    order = quadratic.FREE + quadratic.QUANTIFIED
-    if is_about(example, exists(order, optimal_path.body_of(quadratic.leaving(problem), order))) != TRUE:
-        raise CertificateRejected(BELOW, "not the question of this problem")

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 import qe
 from bezier.obstacles.obstacle import PointInside
-from bezier.plans import Begun, Clock, Method, Outcome, Plan, Restored, Stated, Story
+from bezier.plans import Begun, Clock, Method, Outcome, Plan, Stated, Story
 from bezier.problem import Problem, ends_inside
 from bezier.report import html
 from bezier.report.html import Section
@@ -47,13 +47,10 @@ def _plan(problem: Problem) -> RefutedPlan:
         problem=problem,
         outcome=Outcome.INFEASIBLE,
         formula="",
-        answer=None,
         objective=None,
         path=None,
         active=(),
         certificate=Certificate.bundle((item.label, item.certificate()) for item in result),
-        checks={},
-        seconds={},
         inside=result,
     )
 
@@ -65,11 +62,8 @@ def reason(plan: RefutedPlan) -> str:
 
 def json_entries(plan: RefutedPlan) -> dict[str, Any]:
     """The ends in obstacles, with their places."""
-    result = [
-        {"point": item.name, "obstacle": item.obstacle.name, "place": list(map(str, item.place))}
-        for item in plan.inside
-    ]
-    return {"inside": result}
+    listed = ((item.name, item.obstacle.name, list(map(str, item.place))) for item in plan.inside)
+    return {"inside": [{"point": point, "obstacle": name, "place": place} for point, name, place in listed]}
 
 
 def draw(plan: RefutedPlan, folder: FilePath) -> Drawing:
@@ -97,10 +91,10 @@ def story(plan: RefutedPlan, drawing: Drawing | None) -> Story:
     )
 
 
-def restore(problem: Problem, certificate: Certificate, stated: Stated) -> Restored[RefutedPlan]:
+def restore(problem: Problem, certificate: Certificate, stated: Stated) -> tuple[RefutedPlan, tuple[str, ...]]:
     """The plan, which follows from the problem alone: so do the certificates that the folder has to have."""
     plan = _plan(problem)
-    return Restored(plan, tuple(item.in_words() for item in plan.inside))
+    return plan, tuple(item.in_words() for item in plan.inside)
 
 
 REFUTED: Method[RefutedPlan] = Method(

@@ -14,10 +14,9 @@ from bezier.input.task import Axis, Task
 from bezier.methods.single import plan as single_plan
 from bezier.methods.single import restore as single_restore
 from bezier.methods.single.closed import ProvedCurve
-from bezier.methods.single.cuts import Cut
 from bezier.methods.single.plan import CLOSED, NAME, SUMS, SinglePlan, above_label, lowest_label, of_axis
 from bezier.methods.single.program import TIE_BREAK, Dip, lower_of
-from bezier.plans import Method, Restored, Stated, Story
+from bezier.plans import Method, Stated, Story
 from bezier.problem import Problem
 from bezier.report import html, mathml, parts
 from bezier.report.html import Section, Text
@@ -78,22 +77,16 @@ def holes(plan: SinglePlan) -> list[str]:
             f" at t = {brief(dip.t)}"
             for dip in plan.printed.allowed
         ]
-    if isinstance(plan.closed, ProvedCurve):
-        lines.append(f"Method 1*: {_quality(plan.closed)}")
+    if isinstance(closed := plan.closed, ProvedCurve):
+        cuts, value = f"{len(closed.cuts)} cuts", brief(closed.value)
+        said = f"a curve with the sum {value}; no curve has a sum below {decimal_text(closed.bound, 8)} ({cuts})"
+        best = f"a curve with the least possible sum, {value}, by {cuts}"
+        lines.append(f"Method 1*: {best if closed.is_optimal else said}")
     return lines
 
 
 def _dip_text(dip: Dip) -> str:
     return f"{dip.axis.name} = {decimal_text(dip.value, 8)}"
-
-
-def _quality(closed: ProvedCurve) -> str:
-    if closed.is_optimal:
-        return f"a curve with the least possible sum, {brief(closed.value)}, by {len(closed.cuts)} cuts"
-    return (
-        f"a curve with the sum {brief(closed.value)}; no curve has a sum below {decimal_text(closed.bound, 8)}"
-        f" ({len(closed.cuts)} cuts)"
-    )
 
 
 def reason(plan: SinglePlan) -> str:
@@ -109,9 +102,8 @@ def reason(plan: SinglePlan) -> str:
 
 def _none(plan: SinglePlan) -> Section:
     stated = reason(plan)
-    content = html.paragraph(html.strong(f"{stated[0].upper()}{stated[1:]}.")) + html.paragraph(
-        "A higher degree may help."
-    )
+    content = html.paragraph(html.strong(f"{stated[0].upper()}{stated[1:]}."))
+    content += html.paragraph("A higher degree may help.")
     return Section("none", "Why there is no path", content)
 
 
@@ -257,7 +249,10 @@ def json_entries(plan: SinglePlan) -> dict[str, Any]:
         "dips_allowed": [],
         "leaves": [],
         "closed": None,
-        "cuts": [_cut(cut) for cut in closed.cuts] if closed is not None else [],
+        "cuts": [
+            {"kind": cut.kind.value, "axis": cut.axis, "t": str(cut.t), "plane": [str(c) for c in cut.plane]}
+            for cut in (() if closed is None else closed.cuts)
+        ],
     }
     if plan.printed is not None:
         data["dips"] = [_dip(dip) for dip in plan.printed.dips]
@@ -278,10 +273,6 @@ def _dip(dip: Dip) -> dict[str, str]:
     return {"axis": dip.axis.name, "t": str(dip.t), **described(dip.value)}
 
 
-def _cut(cut: Cut) -> dict[str, Any]:
-    return {"kind": cut.kind.value, "axis": cut.axis, "t": str(cut.t), "plane": [str(c) for c in cut.plane]}
-
-
 def draw(plan: SinglePlan, folder: FilePath) -> Drawing:
     """The path in its workspace, and the heights over x with [a, b] and h marked."""
     from bezier.pictures import charts, plot
@@ -299,7 +290,7 @@ def draw(plan: SinglePlan, folder: FilePath) -> Drawing:
     return Drawing(picture, ("path.png", "profile.png"), plot.views(picture), heights)
 
 
-def restore(problem: Problem, certificate: Certificate, stated: Stated) -> Restored[SinglePlan]:
+def restore(problem: Problem, certificate: Certificate, stated: Stated) -> tuple[SinglePlan, tuple[str, ...]]:
     """The plan that the files of a folder prove."""
     plan = single_restore.restore(problem, certificate, stated)
     lines = ["the linear problems (4) belong to this problem"]
@@ -307,7 +298,7 @@ def restore(problem: Problem, certificate: Certificate, stated: Stated) -> Resto
         lines.append("the linear problem of Method 1* follows from its conditions for all t")
     if plan.path is not None:
         lines.append("the curve satisfies (4) and keeps its heights for all t from t_a to t_b")
-    return Restored(plan, tuple(lines))
+    return plan, tuple(lines)
 
 
 SINGLE: Method[SinglePlan] = Method(

@@ -24,7 +24,7 @@ from bezier.check.recheck import recheck
 from bezier.curves.curve import Bezier
 from bezier.planner import arm as planner_arm
 from bezier.planner.arm import rounded
-from bezier.planner.outputs import facts, write_data
+from bezier.planner.outputs import data_texts, facts, write_texts
 from bezier.planner.planning import make_plan
 from bezier.planner.table import method_of
 from bezier.plans import Outcome
@@ -89,7 +89,7 @@ def test_a_plan_with_an_arm_is_written_and_checked(tmp_path: Path, monkeypatch: 
     monkeypatch.setattr(planner_arm, "SAMPLES", 21)
     made = make_plan(read_problem(PROBLEM.format("ev3", 250)))
     assert made.outcome is Outcome.SOLVED and made.joints is not None and made.joints.is_proved
-    files = write_data(made, tmp_path)
+    files = write_texts(tmp_path, data_texts(made))
     assert {"joints.csv", "joints.json", "joints_certificate.json"} <= set(files)
     (tmp_path / "report.html").write_text("")
     listed = sorted([*files, "report.html", "summary.json"])

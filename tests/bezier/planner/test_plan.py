@@ -82,9 +82,9 @@ def test_a_half_space_for_a_quadratic_plan(root):
     up = HalfSpace((Fraction(0), Fraction(0), Fraction(1)), Fraction(-13, 4), "half_space[0]")
     plan = make_plan(replace(problem, half_spaces=(PointCondition(up, ("Q1",)),)))
     assert plan.certified and plan.active == ("Q1.half_space[0]",) and plan.path.points["Q1"][2] == Fraction(13, 4)
-    assert restore(plan.problem, plan.certificate).path.points == plan.path.points
+    assert restore(plan.problem, plan.certificate, Stated({}, None))[0].path.points == plan.path.points
     with pytest.raises(CertificateRejected):
-        restore(problem, plan.certificate)
+        restore(problem, plan.certificate, Stated({}, None))
 
 
 def test_the_region_of_formula_8_is_printed_as_the_readme_shows_it(root):

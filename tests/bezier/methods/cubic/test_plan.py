@@ -16,7 +16,7 @@ from bezier.methods.control.terms import named_multipliers
 from bezier.methods.cubic import formula as cubic
 from bezier.paths.path import speed_at_joins
 from bezier.planner.planning import make_plan
-from bezier.plans import Outcome
+from bezier.plans import Outcome, Stated
 from bezier.problem import INNER, PlanMethod, PointCondition, Problem
 from qe.errors import InputError
 from qe.io import text
@@ -251,7 +251,7 @@ def test_a_via_point_on_the_sphere_leaves_only_the_cusp():
     st.lists(st.tuples(POINT.filter(any), COORDINATE, st.sampled_from(INNER[PlanMethod.CUBIC])), max_size=2),
 )
 def test_many_plans_and_what_their_certificates_show(via, more, kind, ratio, speed, half_spaces):
-    from bezier.methods.cubic.method import restored_plan as restore
+    from bezier.methods.cubic.method import restore
     from qe.proof.certificate import Certificate
 
     if kind is WorkspaceKind.HEMISPHERE:
@@ -264,7 +264,7 @@ def test_many_plans_and_what_their_certificates_show(via, more, kind, ratio, spe
     squared = max(*(dot(p, p) for p in via), Fraction(1)) + more
     asked = problem(*via, squared, kind, ratio=ratio, join_speed=Fraction(speed), half_spaces=conditions)
     plan = make_plan(asked)
-    shown = restore(asked, Certificate.from_json(plan.certificate.to_json()))
+    shown, _ = restore(asked, Certificate.from_json(plan.certificate.to_json()), Stated({}, None))
     assert plan.certified and (shown.path is None) == (plan.path is None)
     assert plan.path is None or shown.path.points == plan.path.points
 

@@ -16,7 +16,7 @@ from bezier.methods.single.plan import CLOSED, PIECEWISE_DEGREE, _least_sums, ta
 from bezier.methods.single.program import choose, curve, lower_of, objective, rows_of
 from bezier.methods.single.restore import certified_curve
 from bezier.methods.single.simplex import linear_program, solve
-from bezier.planner.outputs import facts, path_json, write_data
+from bezier.planner.outputs import data_texts, facts, path_json, write_texts
 from bezier.planner.planning import make_plan
 from bezier.plans import Outcome, Stated
 from bezier.problem import from_json, load_problem, read_problem, to_json
@@ -45,7 +45,7 @@ def test_everything_is_certified_and_found_again(plans, name):
     plan = plans[name]
     assert plan.certified and all(verdict.accepted for verdict in plan.checks.values())
     stored = Certificate.from_json(plan.certificate.to_json())
-    again = SINGLE.restore(plan.problem, stored, stated_by(plan)).plan
+    again, _ = SINGLE.restore(plan.problem, stored, stated_by(plan))
     assert again.outcome is plan.outcome and again.certificate == plan.certificate
     assert again.printed == plan.printed and again.chosen == plan.chosen and again.above == plan.above
     if plan.path is not None:
@@ -248,7 +248,7 @@ def test_a_cut_that_does_not_follow_is_rejected(cut, plans):
 
 def test_the_files(plans, tmp_path):
     names = {"certificate.json", "problem.json", "path.json", "path.csv"}
-    assert set(write_data(plans["single_leaves"], tmp_path)) == names
+    assert set(write_texts(tmp_path, data_texts(plans["single_leaves"]))) == names
     stored = json.loads((tmp_path / "path.json").read_text())
     assert stored["curves"] == {"P": [f"P{i}" for i in range(7)]} and stored["joins"] == []
     rows = (tmp_path / "path.csv").read_text().splitlines()
