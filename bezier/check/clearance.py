@@ -15,7 +15,6 @@ from bezier.input.toml_table import Table
 from bezier.obstacles import survey
 from bezier.obstacles.obstacle import Obstacle
 from bezier.obstacles.reader import read_obstacles
-from bezier.obstacles.survey import Finding
 from bezier.planner import derivations
 from bezier.planner.table import method_of
 from bezier.plans import Clock, Plan
@@ -55,7 +54,15 @@ def clearance(
             members += derivations.members(derived)
         certificate = qe.Certificate.bundle(members)
         verdict = qe.verify(certificate) if members else None
-    return _as_json(findings, verdict), _in_words(findings, verdict), certificate.to_json() if evidence else ""
+    met, state = (
+        survey.contacts(findings),
+        "none" if verdict is None else "accepted" if verdict.accepted else "rejected",
+    )
+    data: dict[str, Any] = {"status": "solved", "clear": not met}
+    data |= {"findings": [survey.to_json(finding) for finding in findings], "certificates": state}
+    last = f"{len(met)} of {len(findings)} pairs meet" if met else f"all {len(findings)} pairs are clear"
+    said = f"{last}; certificates: {state.replace('rejected', 'REJECTED')}"
+    return data, [*map(survey.in_words, findings), said], certificate.to_json() if evidence else ""
 
 
 def _read(source: FilePath, clock: Clock) -> tuple[Curves, Sequence[Obstacle], Mapping[str, Any]]:
@@ -72,19 +79,3 @@ def _read(source: FilePath, clock: Clock) -> tuple[Curves, Sequence[Obstacle], M
     if plan.path is None:
         raise Unable(f"{source}: no path to examine: {method_of(problem.method).reason(plan)}")
     return plan.path.curves, problem.obstacles, plan.eliminations
-
-
-def _as_json(findings: Sequence[Finding], verdict: qe.Verdict | None) -> dict[str, Any]:
-    return {
-        "status": "solved",
-        "clear": not survey.contacts(findings),
-        "findings": [survey.to_json(finding) for finding in findings],
-        "certificates": "none" if verdict is None else "accepted" if verdict.accepted else "rejected",
-    }
-
-
-def _in_words(findings: Sequence[Finding], verdict: qe.Verdict | None) -> list[str]:
-    contacts = survey.contacts(findings)
-    last = f"{len(contacts)} of {len(findings)} pairs meet" if contacts else f"all {len(findings)} pairs are clear"
-    accepted = "none" if verdict is None else "accepted" if verdict.accepted else "REJECTED"
-    return [*map(survey.in_words, findings), f"{last}; certificates: {accepted}"]

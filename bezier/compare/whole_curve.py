@@ -40,10 +40,6 @@ class Family:
         """The coordinates of the point at the parameter t."""
         return [st.bracketed(st.bernstein(column, TIME)) for column in zip(*self.points, strict=True)]
 
-    def inside(self, conditions: Iterable[Condition]) -> st.Statement:
-        """The whole curve satisfies the conditions: a formula in the parameters, or a sentence without any."""
-        return _for_all_t(_all(conditions, [self.at()]))
-
     def polygon_inside(self, conditions: Iterable[Condition]) -> st.Statement:
         """All control points satisfy the conditions."""
         return _all(conditions, self.points)
@@ -93,9 +89,8 @@ def implications(problem: Problem, plane: Plane, *, timeout: float | None = None
     for name, family in families(problem, plane).items():
         for c in problem.workspace.conditions:
             inside = st.implies(st.every(WHOLE, family.polygon_inside([c])), _all([c], [family.at()]))
-            answer = qe.eliminate(
-                st.for_all(order, inside).formula, timeout=budget.time_left("whole curves"), order=order
-            )
+            left = budget.time_left("whole curves")
+            answer = qe.eliminate(st.for_all(order, inside).formula, timeout=left, order=order)
             if answer.truth is None:
                 budget.check("whole curves")
                 raise Unable(answer.reason or "it was not decided")
@@ -111,4 +106,4 @@ def curve_inside(curve: Bezier, conditions: Sequence[Condition], *, timeout: flo
     if any(rational(c) is None for point in curve.points for c in point):
         raise InputError("a curve with rational coordinates expected")
     family = Family([[st.number(exactly(c)) for c in point] for point in curve.points])
-    return qe.decide(family.inside(conditions).formula, timeout=timeout)
+    return qe.decide(_for_all_t(_all(conditions, [family.at()])).formula, timeout=timeout)

@@ -22,14 +22,16 @@ if TYPE_CHECKING:
     from scipy.interpolate import BSpline, PPoly
 
 
-def npz(track: Track, rows: int = 151) -> bytes:
+ROWS = 151
+
+
+def npz(track: Track) -> bytes:
     """A file for ``numpy.load``, without pickles.
 
-    ``time`` (rows,), ``position``, ``velocity``, ``acceleration`` (rows, 3), and the motion itself as Bézier pieces:
+    ``time`` (ROWS,), ``position``, ``velocity``, ``acceleration`` (ROWS, 3), and the motion itself as Bézier pieces:
     ``breaks`` (n+1,) and ``control`` (n, d+1, 3).
     """
-    time = np.linspace(0.0, track.end, rows)
-    file = io.BytesIO()
+    time, file = np.linspace(0.0, track.end, ROWS), io.BytesIO()
     np.savez_compressed(
         file,
         time=time,

@@ -48,16 +48,13 @@ def gcode(
     plane: str = "xy",
     tolerance: float = 0.05,
     feed: float = 1000.0,
-    pen: tuple[str, str] = ("G1 Z0 F1000", "G0 Z5"),
 ) -> str:
-    """Lines for a pen plotter (RS-274: mm, absolute): the path in a plane, in chords within ``tolerance`` (mm) of it.
-
-    ``feed`` in mm/min; ``pen``: what lowers and what lifts the pen.
-    """
+    """Lines for a pen plotter (RS-274: mm, absolute): the path in a plane, in chords within ``tolerance`` (mm) of it;
+    ``feed`` in mm/min."""
     i, j = axes(plane)
     parts = [polyline(control[:, [i, j]], tolerance) for control in track.control]
     points = np.concatenate([parts[0][:1], *(part[1:] for part in parts)])
-    down, up = pen
+    down, up = "G1 Z0 F1000", "G0 Z5"  # the pen
     places = [f"X{x:.4f} Y{y:.4f}" for x, y in points + 0.0]
     kept = [places[0], *(b for a, b in pairwise(places) if a != b)]
     head = [f"; planned path, plane {plane}, chords within {tolerance:g} mm", "G21", "G90", up]

@@ -13,7 +13,6 @@ MAX_CHARACTERS = 400
 MAX_EXPONENT = 400
 NUMBER = 'an integer, a decimal or a fraction such as "3/4"'
 
-_INTEGER = re.compile(r"[+-]?[0-9]+")
 _FRACTION = re.compile(r"([+-]?[0-9]+)\s*/\s*([+-]?[0-9]+)")
 _DECIMAL = re.compile(r"[+-]?(?:[0-9]+\.?[0-9]*|\.[0-9]+)(?:[eE]([+-]?[0-9]+))?")
 _ROOT = re.compile(r"(?:([^*()\s]+)\s*\*\s*)?sqrt\(\s*([^()]+?)\s*\)(?:\s*/\s*([^/()\s]+))?")
@@ -35,8 +34,6 @@ def parse(text: str, limit: int = MAX_CHARACTERS) -> Fraction:
     body = text.strip()
     if len(body) > limit:
         raise NotANumber(f"a number of {len(body)} characters (at most {limit})")
-    if _INTEGER.fullmatch(body):
-        return Fraction(int(body))
     if match := _FRACTION.fullmatch(body):
         top, bottom = int(match[1]), int(match[2])
         if bottom == 0:

@@ -81,10 +81,8 @@ class Table:
     def error(self, key: str, expected: str, given: str) -> InputError:
         """The one line about a key of this table."""
         place = self.prefix + key
-        line = _line_of(place, self.lines)
-        return InputError(
-            f"{self.source}{line}: {self._named(place)}: expected {expected}, found {shorten(given, 160)}"
-        )
+        where = f"{self.source}{_line_of(place, self.lines)}: {self._named(place)}"
+        return InputError(f"{where}: expected {expected}, found {shorten(given, 160)}")
 
     def _named(self, place: str) -> str:
         head = re.match(r"\w*", place)
@@ -96,10 +94,9 @@ class Table:
         names = tuple(known)
         for key in self.values:
             if key not in names:
-                known_here = [name if self.prefix else self._named(name) for name in names]
-                raise self.error(
-                    key, f"one of the keys {', '.join(known_here)}", f'the unknown key "{key}"{meant(key, known_here)}'
-                )
+                here = [name if self.prefix else self._named(name) for name in names]
+                unknown = f'the unknown key "{key}"{meant(key, here)}'
+                raise self.error(key, f"one of the keys {', '.join(here)}", unknown)
 
     def required(self, key: str, expected: str) -> Any:
         """A value that must be there."""
@@ -189,11 +186,8 @@ class Table:
         except NotANumber as error:
             raise self.error(key, expected, str(error)) from None
         if not 0 < square <= LARGEST**2:
-            raise (
-                self.error(key, "a number of at most 10^50", "a larger one")
-                if square
-                else self.error(key, expected, "zero")
-            )
+            wrong = ("a number of at most 10^50", "a larger one") if square else (expected, "zero")
+            raise self.error(key, *wrong)
         return square
 
     def _exact(self, key: str, raw: object) -> Fraction:

@@ -311,20 +311,16 @@ def summary_lines(quality: Quality | None) -> list[str]:
         most = f", largest curvature {worst} ({name})"
     lines = [f"length {quality.length.shown()} mm{most}"]
     if quality.motion is not None:
-        lines.append(_motion_words(quality.motion))
+        motion, said = quality.motion, {True: "kept", False: "EXCEEDED"}
+        limits = "".join(f", {key.replace('_', ' ')} {said[kept]} at all times" for key, kept in motion.kept.items())
+        fastest, hardest = map(_short, motion.largest.values())
+        lines.append(
+            f"motion: {motion.timing.law.value}, {decimal_text(motion.duration, 8)} s, at most {fastest} mm/s and"
+            f" {hardest} mm/s^2{limits}{motion.bound_in_words}"
+        )
         if not quality.motion.keeps_limits:
             lines.append(f"{quality.motion.reason}; kept at all times with {quality.motion.suggestion}")
     return lines
-
-
-def _motion_words(motion: Motion) -> str:
-    said = {True: "kept", False: "EXCEEDED"}
-    limits = "".join(f", {key.replace('_', ' ')} {said[kept]} at all times" for key, kept in motion.kept.items())
-    fastest, hardest = map(_short, motion.largest.values())
-    return (
-        f"motion: {motion.timing.law.value}, {decimal_text(motion.duration, 8)} s, at most {fastest} mm/s and"
-        f" {hardest} mm/s^2{limits}{motion.bound_in_words}"
-    )
 
 
 def _short(value: enclosure.Enclosure) -> str:

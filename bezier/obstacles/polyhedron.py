@@ -122,9 +122,8 @@ def _with_edges(points: list[Point], planes: dict[tuple[Point, Fraction], tuple[
     for (normal, offset), on in planes.items():
         sides = [(i, j) for i, j in pairs if i in on and j in on]
         loop = _around(sides)
-        facets.append(
-            Facet(normal, offset, tuple(place[i] for i in loop), _boundaries(normal, [points[i] for i in loop]))
-        )
+        boundaries = _boundaries(normal, [points[i] for i in loop])
+        facets.append(Facet(normal, offset, tuple(place[i] for i in loop), boundaries))
     corners = tuple(points[i] for i in extreme)
     return Polytope(corners, tuple((place[i], place[j]) for i, j in pairs), tuple(facets))
 

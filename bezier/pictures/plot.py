@@ -104,13 +104,13 @@ def save_region(picture: PathPicture, path: Path, title: str) -> None:
     figure.suptitle(title, fontsize=14, color=INK, y=0.985)
     region = picture.region
     if region is None:
-        axis = figure.add_axes((0.0, 0.0, 1.0, 1.0))
-        _say(axis, "the region has no interior, so there is nothing to draw:\nsee the report for its exact description")
+        said = "the region has no interior, so there is nothing to draw:\nsee the report for its exact description"
+        figure.text(0.5, 0.5, said, ha="center", fontsize=12, color=INK)
     else:
         elevation, turn = best_view(region.mesh)
         for column, view in enumerate(((elevation, turn), (10.0, turn + 180))):
             axis = figure.add_axes((0.09 + 0.46 * column, 0.37, 0.42, 0.54), projection="3d")
-            _draw_region(axis, region, alpha=1.0, view=view)
+            _draw_region(axis, region, view)
             _frame(axis, region.mesh.vertices, pad=0.06, view=view)
             if region.chosen is not None:
                 axis.plot(*region.chosen[:, None], "o", color=INK, markersize=7, zorder=10)
@@ -135,9 +135,8 @@ def save_path(picture: PathPicture, path: Path) -> None:
         _draw_obstacle(axis, obstacle)
     reach = picture.radius
     low = 0.0 if picture.has_floor else -reach
-    _frame(
-        axis, np.array([[-reach, -reach, low], [reach, reach, reach]]), pad=0.0, zoom=1.2 if picture.has_floor else 1.0
-    )
+    ends = np.array([[-reach, -reach, low], [reach, reach, reach]])
+    _frame(axis, ends, pad=0.0, zoom=1.2 if picture.has_floor else 1.0)
     _name_in_space(axis, picture)
     if picture.curves:
         handles, texts = axis.get_legend_handles_labels()
@@ -201,25 +200,22 @@ def letter(drawn: Any, hatted_names: bool) -> None:
         item.set_text(item.get_text().replace("\u0302", ""))
 
 
-def _draw_region(axis: Any, region: RegionPicture, alpha: float, view: tuple[float, float] | None = None) -> None:
-    """Shaded triangles and creases; with ``view`` only those triangles that face the viewer (the set is convex)."""
+def _draw_region(axis: Any, region: RegionPicture, view: tuple[float, float]) -> None:
+    """Shaded triangles and creases; only those triangles that face the viewer (the set is convex)."""
     from matplotlib.colors import to_rgb
     from mpl_toolkits.mplot3d.art3d import Poly3DCollection
 
     mesh = region.mesh
-    triangles, normals = mesh.vertices[mesh.faces], mesh.normals
-    seen = np.ones(len(normals), dtype=bool) if view is None else normals @ direction(view) > -0.15
-    triangles, normals = triangles[seen], normals[seen]
+    seen = mesh.normals @ direction(view) > -0.15
     light = np.array([-0.35, -0.65, 0.68])
-    shade = 0.80 + 0.20 * (normals @ light)
+    shade = 0.80 + 0.20 * (mesh.normals[seen] @ light)
     base = np.array([to_rgb(region.colour(k)) for k in range(len(region.labels))])[mesh.owner[seen]]
     colours = 1 - (1 - base) * 0.62
-    faces = np.clip(colours * shade[:, None], 0, 1)
-    rgba = np.concatenate([faces, np.full((len(faces), 1), alpha)], axis=1)
-    lines = 0.2 if alpha == 1 else 0.0
-    axis.add_collection3d(Poly3DCollection(triangles, facecolors=rgba, edgecolors=rgba, linewidths=lines))
+    rgb = np.clip(colours * shade[:, None], 0, 1)
+    triangles = mesh.vertices[mesh.faces][seen]
+    axis.add_collection3d(Poly3DCollection(triangles, facecolors=rgb, edgecolors=rgb, linewidths=0.2))
     for edge in mesh.edges:
-        axis.plot(*edge.T, color=INK, linewidth=1.2, alpha=min(1.0, alpha + 0.3))
+        axis.plot(*edge.T, color=INK, linewidth=1.2)
 
 
 def _draw_obstacle(axis: Any, obstacle: ObstaclePicture) -> None:
@@ -352,8 +348,3 @@ def framed(axis: Any, across: str, up: str = "", title: str = "", size: float = 
     axis.set_xlabel(across)
     axis.set_ylabel(up)
     axis.grid(color=GRID, linewidth=0.6)
-
-
-def _say(axis: Any, text: str) -> None:
-    axis.set_axis_off()
-    axis.text(0.5, 0.5, text, transform=axis.transAxes, ha="center", fontsize=12, color=INK)

@@ -26,9 +26,9 @@ _TAG = re.compile(r"<(/?)[a-z]+[^<>]*?(/?)>")
 _OPERATORS = ("<mo>+</mo>", "<mo>−</mo>", "<mo>∧</mo>")
 
 
-def math(body: str, *, block: bool = False) -> str:
+def math(body: str) -> str:
     """A ``<math>`` element."""
-    return f'<math display="{"block" if block else "inline"}" displaystyle="true">{body}</math>'
+    return f'<math display="inline" displaystyle="true">{body}</math>'
 
 
 def lines(body: str) -> str:
@@ -121,12 +121,9 @@ def _expression(node: ast.expr) -> str:
 def _wrapped(node: ast.expr, kind: type[ast.expr] | None) -> str:
     """With brackets around sums (and around any operation, for ``kind`` BinOp)."""
     additive = isinstance(node, ast.BinOp) and isinstance(node.op, (ast.Add, ast.Sub))
-    needed = additive or (kind is not None and isinstance(node, kind) and not _is_fraction(node))
+    is_product = isinstance(node, ast.BinOp) and isinstance(node.op, (ast.Div, ast.Mult))
+    needed = additive or (kind is not None and isinstance(node, kind) and not is_product)
     return mathml.bracketed(_expression(node)) if needed else _expression(node)
-
-
-def _is_fraction(node: ast.expr) -> bool:
-    return isinstance(node, ast.BinOp) and isinstance(node.op, (ast.Div, ast.Mult))
 
 
 def vector(values: Iterable[Any]) -> str:

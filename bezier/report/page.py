@@ -21,7 +21,7 @@ from bezier.plans import Method, Outcome, Plan
 from bezier.report import first, html, joints, mathml, parts
 from bezier.report.first import duration
 from bezier.report.html import Page, Section, Text, toned
-from bezier.report.parts import SMOOTHNESS, condition_name, decimal_point, derivation_link, shown
+from bezier.report.parts import SMOOTHNESS, decimal_point, derivation_link, shown
 
 if TYPE_CHECKING:
     from bezier.pictures.picture import Drawing
@@ -59,7 +59,8 @@ def path(plan: Plan, drawing: Drawing | None) -> Section | None:
 
 
 def _proof(proof: Proof) -> tuple[Text, ...]:
-    name, condition = curve_name(proof.curve), condition_name(proof.condition)
+    name, known = curve_name(proof.curve), {"ball": "‖·‖ ≤ r", "floor": "z ≥ 0"}
+    condition = known.get(proof.condition.name, proof.condition.name)
     if isinstance(proof.outcome, Inside):
         return name, condition, toned("for all t in [0, 1]", True), TESTS[proof.outcome.test]
     return name, condition, toned(f"leaves, e.g. at t = {brief(proof.outcome.t)}", False), "exact evaluation there"
@@ -77,14 +78,9 @@ def _joins(whole_path: Path) -> Text:
         label = next(name for name in ("Q0", "R0") if whole_path.points[name] == at)
         velocity, jump = speeds.get(f"{item.first}-{item.second}"), item.join.jumps[2]
         stops = "" if item.join.same_direction else ", but it stops there"
-        rows.append(
-            (
-                shown(mathml.name(label)),
-                SMOOTHNESS[item.join.smoothness] + stops,
-                decimal_point(velocity, 6) if velocity else "",
-                "none" if all(map(is_zero, jump)) else decimal_point(jump, 6),
-            )
-        )
+        change = "none" if all(map(is_zero, jump)) else decimal_point(jump, 6)
+        proved, speed = SMOOTHNESS[item.join.smoothness] + stops, decimal_point(velocity, 6) if velocity else ""
+        rows.append((shown(mathml.name(label)), proved, speed, change))
     head = ("at", "proved exactly", "velocity there (mm per unit of time)", "jump of the second derivative")
     return html.table(head, rows)
 
@@ -183,14 +179,8 @@ def _motion(motion: Motion) -> list[Text]:
     for key, value in motion.largest.items():
         (what, unit), limit, kept = words[key], motion.timing.limits.get(key), motion.kept.get(key, False)
         result = "no limit" if limit is None else toned("kept at all times" if kept else "EXCEEDED", kept)
-        rows.append(
-            (
-                f"largest {what}",
-                f"{between(value)} {unit}",
-                "" if limit is None else f"{decimal_text(limit, 8)} {unit}",
-                result,
-            )
-        )
+        most = "" if limit is None else f"{decimal_text(limit, 8)} {unit}"
+        rows.append((f"largest {what}", f"{between(value)} {unit}", most, result))
     title = f"Motion: {motion.timing.law.value} law, {decimal_text(motion.duration, 8)} s{motion.bound_in_words}"
     return [html.heading(title), html.table(("", "over the whole time", "limit", "result"), rows)]
 

@@ -12,7 +12,7 @@ from markupsafe import Markup
 
 from bezier.curves.curve import Smoothness
 from bezier.curves.scalar import decimal_text, dot, rational
-from bezier.curves.workspace import Condition, HalfSpace
+from bezier.curves.workspace import HalfSpace
 from bezier.methods.control.system import Combination, OnPoint, System
 from bezier.methods.control.terms import named_multipliers
 from bezier.paths.path import Path
@@ -164,8 +164,12 @@ def optimum(plan: Plan, system: System, certified: Any, title: Text, free_minimu
         active = f"Conditions that hold with equality there: {', '.join(map(on_point, plan.active))}."
     else:
         active = f"No condition is active: {free_minimum}, is allowed."
+    squares = (
+        f"<msup><mrow><mo>‖</mo>{mathml.name(b)}<mo>−</mo>{mathml.name(a)}<mo>‖</mo></mrow><mn>2</mn></msup>"
+        for a, b in pairwise(system.shape.route)
+    )
     content = (
-        html.paragraph(Markup("The paper asks for the least {}.").format(objective_formula(system.shape.route))),
+        html.paragraph(Markup("The paper asks for the least {}.").format(shown("<mo>+</mo>".join(squares)))),
         least(plan),
         control_points(plan.path),
         html.paragraph(active),
@@ -194,15 +198,6 @@ def control_points(path: Path) -> Markup:
     return html.table(("control point", "coordinates (mm)"), rows)
 
 
-def objective_formula(route: Sequence[str]) -> Markup:
-    """The sum of |b - a|^2 along the route."""
-    squares = [
-        f"<msup><mrow><mo>‖</mo>{mathml.name(b)}<mo>−</mo>{mathml.name(a)}<mo>‖</mo></mrow><mn>2</mn></msup>"
-        for a, b in pairwise(route)
-    ]
-    return shown("<mo>+</mo>".join(squares))
-
-
 def on_point(label: str) -> str:
     """A condition on a control point in words."""
     point, _, condition = label.partition(".")
@@ -220,11 +215,6 @@ def field_text(path: Path) -> str:
                     f" {float(value.field.theta):.8g}; root(k, p) is the k-th real root of p in ascending order."
                 )
     return ""
-
-
-def condition_name(condition: Condition) -> str:
-    """A condition in words."""
-    return {"ball": "‖·‖ ≤ r", "floor": "z ≥ 0"}.get(condition.name, condition.name)
 
 
 def question_with_answer(plan: Plan, name: str, lines: Iterable[Text], counts: str) -> Markup:

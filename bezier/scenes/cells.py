@@ -251,20 +251,13 @@ def _doors(cells: Sequence[Cell], walls: Sequence[Cell]) -> tuple[dict[int, Cell
     boxes = [[(min(c), max(c)) for c in zip(*cell.floats, strict=True)] for cell in cells]
     for ones, others in planes.values():
         for (i, k), (j, _) in product(ones, others):
-            if not _are_near(boxes[i], boxes[j]):
+            pairs = zip(boxes[i], boxes[j], strict=True)
+            if any(a > d + abs(d) * _SURE or c > b + abs(b) * _SURE for (a, b), (c, d) in pairs):
                 continue
             door = common_side(cells[i], k, cells[j])
             if door is not None and not any(wall.contains(centre) for centre in [door.centre] for wall in walls):
                 doors[i][j] = doors[j][i] = door
     return doors
-
-
-def _are_near(one: Sequence[tuple[float, float]], other: Sequence[tuple[float, float]]) -> bool:
-    """Whether boxes may meet."""
-    for (a, b), (c, d) in zip(one, other, strict=True):
-        if a > d + abs(d) * _SURE or c > b + abs(b) * _SURE:
-            return False
-    return True
 
 
 def common_side(one: Cell, k: int, other: Cell) -> Cell | None:

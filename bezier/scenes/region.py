@@ -72,9 +72,8 @@ def decomposed(scene: Scene, fine: int, budget: Budget, even: Fraction = ONE) ->
     workspace wherever they are. Raises ``Unable`` where these do not tell."""
     domain, around = outlines(scene, fine)
     if not scene.formulas:
-        return Decomposed(
-            domain, FreeCells.of(domain, around, budget), scene, tuple((i,) for i in range(len(scene.bodies)))
-        )
+        same = tuple((i,) for i in range(len(scene.bodies)))
+        return Decomposed(domain, FreeCells.of(domain, around, budget), scene, same)
     bridges: list[Wall] | None = None if scene.dimension == 2 else []
 
     def left_of(cell: Cell) -> tuple[Cell, ...]:
@@ -84,7 +83,8 @@ def decomposed(scene: Scene, fine: int, budget: Budget, even: Fraction = ONE) ->
     # mixed: cells that are not decided, each with what convex bodies and bridges leave of it
     inner, free, mixed = list[tuple[Cell, tuple[int, ...]]](), list[Cell](), list[tuple[Cell, tuple[Cell, ...]]]()
     waiting, wide = [Cell.box(scene.low, scene.high)], max(b - a for a, b in zip(scene.low, scene.high, strict=True))
-    for side in _planes(scene):
+    for terms in (dict(c.terms) for c in scene.conditions if c.degree == 1):
+        side = tuple(terms.get(key, ZERO) for key in UNITS[: scene.dimension]), -terms.get((0, 0, 0), ZERO)
         waiting = [part for cell in waiting for part in cell.cut(side) if part is not None]
     while waiting:
         for cell in waiting:
@@ -246,13 +246,6 @@ def _across(scene: Scene, place: Sequence[FieldElement], wide: Fraction) -> Iter
         if bodies and qe.eliminate(said, timeout=1.0, process=False).truth:
             yield Wall(start, end, bodies)
             return
-
-
-def _planes(scene: Scene) -> Iterator[Side]:
-    """Of the linear conditions."""
-    for c in (c for c in scene.conditions if c.degree == 1):
-        terms = dict(c.terms)
-        yield tuple(terms.get(key, ZERO) for key in UNITS[: scene.dimension]), -terms.get((0, 0, 0), ZERO)
 
 
 def _between(scene: Scene, free: Sequence[Cell], mixed: Sequence[Sequence[Cell]], walls: Sequence[Cell]) -> set[int]:

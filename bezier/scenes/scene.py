@@ -104,7 +104,7 @@ def read_scene(table: Table, ends: tuple[Point, Point] | None = None) -> Scene:
         surface = _surface(entry, k, size)
         if surface is not None:
             surfaces.append(surface)
-            margin = _margin(entry, extra)
+            margin = entry.not_negative("margin") + extra
             parts = enumerate(surface.cores, start=1)
             bodies += (of_sides(f"{surface.name}, part {i}", c.corners, c.sides, margin) for i, c in parts)
         elif (body := _solid(entry, k, size, extra, None if ends else span)) is not None:
@@ -148,14 +148,12 @@ def _domain(table: Table, size: int) -> tuple[tuple[Solid, ...], tuple[Solid, ..
             tube = {k: v for k, v in entry.values.items() if k not in ("inner", "outer")}
             if entry.positive("inner") >= entry.positive("outer"):
                 raise entry.error("inner", "a radius below outer", str(entry.number("inner")))
-            outer, inner = (
-                _part(
-                    replace(entry, values={**tube, "kind": "cylinder" if size == 3 else "ball", "radius": str(r)}), size
-                )
-                for r in (entry.number("outer"), entry.number("inner"))
-            )
+            tube["kind"] = "cylinder" if size == 3 else "ball"
+            radii = (entry.number("outer"), entry.number("inner"))
+            outer, inner = (_part(replace(entry, values={**tube, "radius": str(r)}), size) for r in radii)
             parts.append(outer)
-            holes.append(_opened(inner))
+            opened = tuple(tuple(replace(c, strict=True) for c in piece) for piece in inner.pieces)
+            holes.append(replace(inner, name="hole", pieces=opened, is_open=True))
         elif kind == "half_ball":
             whole = _part(replace(entry, values={**entry.values, "kind": "ball"}), size)
             up = tuple(-Fraction(k == size - 1) for k in range(size))
@@ -181,11 +179,6 @@ def _part(entry: Table, size: int) -> Solid:
     if solid is None or (isinstance(solid.body, Cylinder) and not solid.corners):
         raise entry.error("bottom", "bottom and top of a workspace", "a cylinder without end")
     return solid
-
-
-def _opened(body: Solid) -> Solid:
-    pieces = tuple(tuple(replace(c, strict=True) for c in piece) for piece in body.pieces)
-    return replace(body, name="hole", pieces=pieces, is_open=True)
 
 
 def _around(table: Table, domain: Sequence[Solid]) -> tuple[Point, Point]:
@@ -236,10 +229,6 @@ def _outline(entry: Table, key: str, raw: object) -> list[Point]:
     if not isinstance(raw, list) or not 3 <= len(raw) <= MOST_FACETS:
         raise entry.error(key, f"3 to {MOST_FACETS} points, one after the other around", describe(raw))
     return [entry.as_point(f"{key}[{i}]", p, 2) for i, p in enumerate(raw)]
-
-
-def _margin(entry: Table, extra: Fraction) -> Fraction:
-    return entry.not_negative("margin") + extra
 
 
 def of_sides(name: str, corners: Sequence[Point], sides: Sequence[Side], margin: Fraction) -> Solid:

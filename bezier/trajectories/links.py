@@ -38,6 +38,7 @@ NEAR = Fraction(1, 1 << 20)
 """How far (mm) the origins of frames may be from the polynomials that stand for them."""
 FINE, DIGITS, BITS = 1 << 44, (10, 30, 60), 96
 """Denominator of places and shares that are tried; binary digits of normals, in turn; those of roots."""
+PLACE = r"link (\S+), (\S+), piece (\S+) from (\S+) to (\S+), share (\S+) to (\S+): (.*)"
 ZERO, ONE = Fraction(0), Fraction(1)
 Pair = tuple[int, int]
 """The number of a link, which is that of the frame at its end, and of a body."""
@@ -156,9 +157,7 @@ class Links:
         """The rectangles that labels state. Raises ``CertificateRejected``."""
         spans = dict.fromkeys(self.spans, tuple[Rectangle, ...]())
         for label in dict.fromkeys(labels):
-            matched = re.fullmatch(
-                r"link (\S+), (\S+), piece (\S+) from (\S+) to (\S+), share (\S+) to (\S+): (.*)", label
-            )
+            matched = re.fullmatch(PLACE, label)
             if matched is None:
                 continue
             k, i, piece, *ends = (stored.rational(text, label) for text in matched.groups()[:7])

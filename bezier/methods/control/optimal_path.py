@@ -142,22 +142,18 @@ def begun(problem: Problem, system: System, clock: Clock) -> Begun:
 def path_through(problem: Problem, system: System, points: Mapping[str, Vector]) -> Path:
     """The curves with what is proved about them: workspace, joins, and the half-spaces that hold a whole curve."""
     path = assemble(system.curves(points), points, problem.workspace, durations=durations(problem))
-    return replace(path, proofs=path.proofs + _whole_curves(problem, system, path))
+    proofs = list[Proof]()
+    for item in problem.point_conditions:
+        for name, listed in system.shape.curves.items():
+            # what holds for all inner points of a curve holds on the whole curve if its ends satisfy it too
+            if set(listed) & set(system.shape.inner) <= set(item.points):
+                proofs += prove({name: path.curves[name]}, (item.half_space,))
+    return replace(path, proofs=(*path.proofs, *(proof for proof in proofs if isinstance(proof.outcome, Inside))))
 
 
 def durations(problem: Problem) -> dict[str, Fraction]:
     """The time that each curve takes, where it is not 1."""
     return {"P": problem.ratio, "R": problem.ratio} if problem.ratio != 1 else {}
-
-
-def _whole_curves(problem: Problem, system: System, path: Path) -> tuple[Proof, ...]:
-    """A condition on all inner points of a curve holds on the whole curve if its ends satisfy it too."""
-    result: list[Proof] = []
-    for item in problem.point_conditions:
-        for name, listed in system.shape.curves.items():
-            if set(listed) & set(system.shape.inner) <= set(item.points):
-                result += prove({name: path.curves[name]}, (item.half_space,))
-    return tuple(proof for proof in result if isinstance(proof.outcome, Inside))
 
 
 def body_of(statement: Statement, order: tuple[str, ...]) -> Formula:
@@ -171,12 +167,8 @@ def elimination(system: System) -> tuple[str, qe.Certificate]:
     the conditions with those points substituted."""
     shape = system.shape
     order = (*shape.variables, *shape.quantified)
-    equations = [body_of(join, order) for join in system.joins()]
-    solved = [
-        (name, equation.poly)
-        for name, equation in zip(shape.quantified, equations, strict=True)
-        if isinstance(equation, Atom)
-    ]
+    pairs = zip(shape.quantified, (body_of(join, order) for join in system.joins()), strict=True)
+    solved = [(name, equation.poly) for name, equation in pairs if isinstance(equation, Atom)]
     answer = body_of(system.in_free_points(), order)
     return ELIMINATION, qe.Certificate.substitution(body_of(system.statement(), order), order, solved, answer)
 

@@ -53,7 +53,14 @@ def story(plan: QuadraticPlan, drawing: Drawing | None) -> Story:
         kind="three quadratic Bézier curves",
         place="4.2.1",
         given=NAMES,
-        claims=_claims(plan),
+        claims={
+            "region": "The answer describes exactly the region: every cell has the truth value stated",
+            "optimum": "The chosen Q1 is the global optimum"
+            if plan.path
+            else "The conditions on Q1 contradict each other",
+            "below the table": "The printed formula allows the example below the table",
+            **{above_label(p): f"The printed formula keeps {p} above the table" for p in quadratic.SHAPE.inner},
+        },
         none=None if plan.path else _infeasibility(plan),
         sections=tuple(section for section in sections if section is not None),
         reported=REPORTED,
@@ -83,15 +90,6 @@ def _balls_reason(plan: QuadraticPlan) -> str:
 
 def _root(exact: str, square: Fraction) -> str:
     return with_decimal(exact, f"{float(square) ** 0.5:.6g}")
-
-
-def _claims(plan: QuadraticPlan) -> dict[str, str]:
-    return {
-        "region": "The answer describes exactly the region: every cell has the truth value stated",
-        "optimum": "The chosen Q1 is the global optimum" if plan.path else "The conditions on Q1 contradict each other",
-        "below the table": "The printed formula allows the example below the table",
-        **{above_label(point): f"The printed formula keeps {point} above the table" for point in quadratic.SHAPE.inner},
-    }
 
 
 def _region(plan: QuadraticPlan, drawing: Drawing | None) -> Section:
@@ -181,30 +179,22 @@ def _table(plan: QuadraticPlan, drawing: Drawing | None) -> Section:
             html.paragraph(html.strong(said)),
             html.table(("example", "coordinates (mm)", "distance from the origin (mm)"), rows),
         ]
-    content.append(html.paragraph(_chosen(plan)) if _chosen(plan) else "")
-    if _corrected(plan):
-        content += [html.heading("The corrected region"), html.paragraph(_corrected(plan))]
+    if plan.gap.chosen:
+        bad = [f"{p.curve} at t = {p.outcome.t}" for p in plan.gap.chosen if isinstance(p.outcome, Leaves)]
+        stays = "The chosen path itself stays above the table: z ≥ 0 is proved along all three curves."
+        content.append(html.paragraph(f"The chosen path goes below the table: {', '.join(bad)}." if bad else stays))
+    if said := _corrected(plan):
+        content += [html.heading("The corrected region"), html.paragraph(said)]
     extra = {} if drawing is None else drawing.picture.extra
     if "corrected" in extra and "printed" in extra:
         above = Markup("with z ≥ 0 for {P1}, {Q1} and {R1}").format(**names)
+        first, only = "the region as printed, seen in space", "the ball conditions only, as printed"
         pair = [
-            region_box(
-                extra["printed"], "the region as printed, seen in space", "the ball conditions only, as printed"
-            ),
+            region_box(extra["printed"], first, only),
             region_box(extra["corrected"], "the corrected region, seen from the same side", above, extra["printed"]),
         ]
         content.append(Markup('<div class="views wide">{}</div>').format(html.joined(*pair)))
     return Section("table", "Above the table?", html.joined(*content), "table")
-
-
-def _chosen(plan: QuadraticPlan) -> str:
-    if not plan.gap.chosen:
-        return ""
-    bad = [p for p in plan.gap.chosen if isinstance(p.outcome, Leaves)]
-    if not bad:
-        return "The chosen path itself stays above the table: z ≥ 0 is proved along all three curves."
-    places = ", ".join(f"{p.curve} at t = {p.outcome.t}" for p in bad if isinstance(p.outcome, Leaves))
-    return f"The chosen path goes below the table: {places}."
 
 
 def _corrected(plan: QuadraticPlan) -> str:
@@ -264,8 +254,8 @@ def draw(plan: QuadraticPlan, folder: FilePath) -> Drawing:
     extra = {}
     if plan.gap.region is not None and not plan.gap.region.is_empty:
         both = quadratic.as_conditions_on_q1(quadratic.corrected(plan.problem))
-        printed = region_picture(both[:3], both, None, level=3)
-        corrected = region_picture(both, both, None, level=3)
+        printed = region_picture(both[:3], both, None)
+        corrected = region_picture(both, both, None)
         if printed is not None and corrected is not None:
             extra = {"printed": printed, "corrected": corrected}
     picture = path_picture(plan.problem, plan.path, plan.system.given, region=region, extra=extra)

@@ -123,7 +123,10 @@ def _made(problem: Problem, clock: Clock) -> SinglePlan:
     with clock.step(CLOSED):
         needed = printed is not None and not printed.holds
         closed = close(given, problem.workspace, check=clock.remaining) if needed else None
-        attainable = _attainable(problem, given, clock) if needed else None
+        attainable = None
+        if needed and _is_eliminated(given):
+            sums = single_formula.closed(given, problem.workspace).formula
+            attainable = single_formula.answered(sums, clock.remaining())
     with clock.step("curves and proofs"):
         fields = known(problem, chosen, printed, closed)
     return SinglePlan(
@@ -204,12 +207,6 @@ def _least_sums(given: Task) -> dict[str, Piecewise]:
 def _is_eliminated(given: Task) -> bool:
     """Whether t is eliminated from Method 1*."""
     return len(given.raised) == 1 and given.degree <= ELIMINATION_DEGREE
-
-
-def _attainable(problem: Problem, given: Task, clock: Clock) -> Any:
-    if not _is_eliminated(given):
-        return None
-    return single_formula.answered(single_formula.closed(given, problem.workspace).formula, clock.remaining())
 
 
 def _printed(problem: Problem, given: Task, chosen: tuple[Chosen, ...]) -> Printed | None:
