@@ -213,7 +213,11 @@ def _label(path: JointPath, run: Run) -> str:
 def _branch_certificate(path: JointPath, run: Run) -> Certificate:
     curves = list(path.curves.values())
     used = sorted({k for k, _ in run.parts})
-    pieces: list[Json] = [_piece(k - used[0], p) for k, p in limited_pieces(path.arm, curves, run.parts, run.turns)]
+    pieces = list[Json]()
+    for k, piece in limited_pieces(path.arm, curves, run.parts, run.turns):
+        triples = {"centre": piece.centre, "slope": piece.slope, "radius": piece.radius}
+        numbers: dict[str, Json] = {key: [str(Fraction(v)) for v in values] for key, values in triples.items()}
+        pieces.append({"curve": k - used[0], "low": str(piece.low), "high": str(piece.high), **numbers})
     payload: dict[str, Json] = {
         "arm": arm_json(path.arm),
         "curves": [curve_json(curves[k]) for k in used],
@@ -221,9 +225,3 @@ def _branch_certificate(path: JointPath, run: Run) -> Certificate:
         "pieces": pieces,
     }
     return LIMITED.certificate(Entry(payload, "evidence"))
-
-
-def _piece(curve: int, piece: ProvedPiece) -> Json:
-    triples = {"centre": piece.centre, "slope": piece.slope, "radius": piece.radius}
-    numbers: dict[str, Json] = {key: [str(Fraction(v)) for v in values] for key, values in triples.items()}
-    return {"curve": curve, "low": str(piece.low), "high": str(piece.high), **numbers}

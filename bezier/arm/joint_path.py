@@ -152,7 +152,11 @@ def joint_path(arm: Arm, curves: Mapping[str, Bezier]) -> JointPath:
     branches: list[tuple[Branch, ...]] = []
     for result in studies:
         branches.append(tuple(_branches(result, branches[-1] if branches else ())))
-    runs = tuple(_limited(arm, studies, run) for run in _runs(branches))
+    runs = tuple(_runs(branches))
+    if arm.has_limits:
+        turns = [turns_of(arm, run.parts) for run in runs]
+        pairs = zip(runs, turns, strict=True)
+        runs = tuple(replace(run, turns=t, excesses=excesses(arm, studies, run.parts, t)) for run, t in pairs)
     limited = None
     if motions is not None:
         runs, undecided = tuple(_numbered(runs, motions, len(listed))), ""
@@ -216,13 +220,6 @@ def _label(run: Run, arcs: Arcs) -> Label | None:
         return None
     held = zip(arcs.labels, arcs.solutions, strict=True)
     return next((label for label, solution in held if branch.contains(arcs.sample, solution)), None)
-
-
-def _limited(arm: Arm, studies: Sequence[Study], run: Run) -> Run:
-    if not arm.has_limits:
-        return run
-    turns = turns_of(arm, run.parts)
-    return replace(run, turns=turns, excesses=excesses(arm, studies, run.parts, turns))
 
 
 def _check_joined(studied: Study, curve: int, runs: Sequence[Run], plane: VerticalArm | None) -> None:

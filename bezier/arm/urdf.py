@@ -44,7 +44,13 @@ MOVING = {"revolute": JointKind.REVOLUTE, "continuous": JointKind.REVOLUTE, "pri
 def load_urdf(name: str) -> Arm:
     """The arm of a file. Raises ``InputError``, and ``Unable`` where the parser is not installed."""
     file, _, tip = name.partition("#")
-    _check_text(file, read_text(Path(file)))
+    text = read_text(Path(file))
+    try:  # the parser repairs damaged files, and would read another arm from them
+        ElementTree.fromstring(text)
+    except ElementTree.ParseError as error:
+        raise InputError(f"{file}: a robot in URDF expected, found no XML: {error}") from None
+    if "<!DOCTYPE" in text:
+        raise InputError(f"{file}: a robot in URDF expected, found a document type, which may refer to other files")
     try:
         import yourdfpy
     except ImportError as error:
@@ -57,9 +63,8 @@ def load_urdf(name: str) -> Arm:
             model = yourdfpy.URDF.load(file, build_scene_graph=False, load_meshes=False)
         joints = list(model.robot.joints)
     except (SyntaxError, ValueError, TypeError, KeyError, AttributeError) as error:
-        raise InputError(
-            f"{file}: a robot in URDF expected, found what its parser refuses: {shorten(str(error))}"
-        ) from None
+        said = f"found what its parser refuses: {shorten(str(error))}"
+        raise InputError(f"{file}: a robot in URDF expected, {said}") from None
     rows = [row for joint in _path(file, joints, tip) for row in _rows(file, joint)]
     names = [row.joint.name for row in rows if row.joint is not None]
     if not names:
@@ -67,16 +72,6 @@ def load_urdf(name: str) -> Arm:
     if len(set(names)) < len(names):
         raise InputError(f"{file}: different names of joints expected, {shorten(', '.join(names))} found")
     return Arm(str(model.robot.name or file), Convention.MODIFIED, tuple(rows), file)
-
-
-def _check_text(file: str, text: str) -> None:
-    """The parser repairs damaged files, and would read another arm from them."""
-    try:
-        ElementTree.fromstring(text)
-    except ElementTree.ParseError as error:
-        raise InputError(f"{file}: a robot in URDF expected, found no XML: {error}") from None
-    if "<!DOCTYPE" in text:
-        raise InputError(f"{file}: a robot in URDF expected, found a document type, which may refer to other files")
 
 
 def _path(file: str, joints: list[Any], tip: str) -> list[Any]:
@@ -184,13 +179,8 @@ def _joint(joint: Any, where: str) -> Joint:
         velocity = _exact(float(limit.velocity), where) * factor if limit.velocity else None
         if velocity is not None and velocity < 0:
             raise InputError(f"{where}: a velocity above zero expected, {velocity} found")
-    return Joint(_name(joint.name), motion, limits, velocity)
-
-
-def _name(text: str) -> str:
-    """A name as in TOML files."""
-    plain = re.sub(r"\W", "_", text)
-    return plain if plain.isidentifier() else f"_{plain}"
+    plain = re.sub(r"\W", "_", joint.name)  # a name as in TOML files
+    return Joint(plain if plain.isidentifier() else f"_{plain}", motion, limits, velocity)
 
 
 def _exact(value: float, where: str) -> Fraction:

@@ -223,7 +223,10 @@ def _bent_less(
     varying = [replace(r, form=r.form.shifted(_INSIDE * abs(r.right))) for r in rows if not r.form.is_constant]
     reach = unit / 10
     for _ in range(_STEPS):
-        near = [_near(i, u, Fraction(reach).limit_denominator(_PLACES)) for i, u in enumerate(point)]
+        most_square, near = Fraction(reach).limit_denominator(_PLACES) ** 2, list[Requirement]()
+        for i, u in enumerate(point):
+            away = Affine({i: _ONE}, tuple(-c for c in u))
+            near.append(Requirement(f"near {i}", squared_length(away).shifted(-most_square), ((_ONE, away),)))
         bent = [*varying, *_linearised(chain, solved, point, most), *near]
         proposal = proposals.best(chain, size, bent)
         if proposal is not None and proposal.excess < 0:
@@ -247,11 +250,6 @@ def _bent_less(
     if not kept:
         raise Unable(f"no chain with a curvature within {chain.max_curvature} was seen")
     return kept[-1]
-
-
-def _near(i: int, at: Point, reach: Fraction) -> Requirement:
-    away = Affine({i: _ONE}, tuple(-c for c in at))
-    return Requirement(f"near {i}", squared_length(away).shifted(-(reach**2)), ((_ONE, away),))
 
 
 def _bends(points: Any, t: Any) -> tuple[Any, Any]:

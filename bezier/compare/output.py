@@ -69,19 +69,15 @@ def notes(comparison: Comparison) -> list[str]:
         " to bound the curves" + (", and more than is needed" if is_larger else "")
     ]
     if comparison.existence.truth:
-        lines.append(
-            f"existence theorem of (7), found by the engine: it always has the solution {_witness_text(comparison)}"
-        )
+        trivial = ", ".join(f"{name} = {value}" for name, value in trivial_witness().items())
+        solution = comparison.existence.witness
+        solution = "Q1 = Q0, Q2 = R0" if solution == trivial else solution
+        lines.append(f"existence theorem of (7), found by the engine: it always has the solution {solution}")
         lines.append("with that choice the path stops and turns round at both joins; the objective rules it out")
     lines += [f"planar region of {name}: {r.reason}" for name, r in planar.named.items() if r.region and r.reason]
     lines += [f"{name}: not finished, {reason}" for name, reason in comparison.unfinished.items()]
     lines += [f"derivation of {name}: not every step checked: {why}" for name, why in comparison.unproved.items()]
     return lines
-
-
-def _witness_text(comparison: Comparison) -> str:
-    trivial = ", ".join(f"{name} = {value}" for name, value in trivial_witness().items())
-    return "Q1 = Q0, Q2 = R0" if comparison.existence.witness == trivial else comparison.existence.witness
 
 
 def _inside(side: Side) -> str:
@@ -99,11 +95,8 @@ def bracket(enclosure: Enclosure | None, digits: int = DIGITS) -> str:
     if enclosure is None:
         return ""
     ends = enclosure.to_json(digits)
-    return (
-        ends["low"]
-        if enclosure.low == enclosure.high and float(ends["low"]) == enclosure.low
-        else f"[{ends['low']}, {ends['high']}]"
-    )
+    is_exact = enclosure.low == enclosure.high and float(ends["low"]) == enclosure.low
+    return ends["low"] if is_exact else f"[{ends['low']}, {ends['high']}]"
 
 
 # --- the terminal -----------------------------------------------------------------------------------------

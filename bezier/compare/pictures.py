@@ -80,9 +80,13 @@ def regions_of(comparison: Comparison) -> Any:
     plane = comparison.planar.plane
     unit = [float(np.linalg.norm(np.array([float(c) for c in v]))) for v in (plane.first, plane.second)]
     lines = {name: _scaled(comparison, name, unit) for name in REGION_COLOURS}
+    named = dict(zip(("Q₀", "R₀"), comparison.problem.via, strict=True))
+    for method, number in zip(METHODS, ("8", "7"), strict=True):
+        if (path := comparison.sides[method].plan.path) is not None:
+            named[f"Q₁ of ({number})"] = path.points["Q1"]
     marks = [
         (text, tuple(float(c) * s for c, s in zip(plane.place(point), unit, strict=True)))
-        for text, point in _marks(comparison).items()
+        for text, point in named.items()
     ]
     everything = np.concatenate([*lines.values(), np.array([place for _, place in marks])])
     wide, high = np.ptp(everything, axis=0)
@@ -129,16 +133,6 @@ def outline(region: Region) -> Array:
     values, low, high = whole[:, np.argsort(whole[0], kind="stable")]
     around = np.stack([np.concatenate([values, values[::-1]]), np.concatenate([low, high[::-1]])], axis=1)
     return np.concatenate([around, around[:1]])
-
-
-def _marks(comparison: Comparison) -> dict[str, Any]:
-    q0, r0 = comparison.problem.via
-    marks = {"Q₀": q0, "R₀": r0}
-    for method, sign in zip(METHODS, ("8", "7"), strict=True):
-        path = comparison.sides[method].plan.path
-        if path is not None:
-            marks[f"Q₁ of ({sign})"] = path.points["Q1"]
-    return marks
 
 
 def _picture(comparison: Comparison, method: PlanMethod) -> PathPicture:

@@ -7,7 +7,7 @@ the arm of the paper), t has no unit.
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable
 from dataclasses import dataclass
 from enum import IntEnum
 from fractions import Fraction
@@ -144,9 +144,7 @@ def join(first: Bezier, second: Bezier, durations: tuple[Fraction, Fraction] = (
         if not same(left, right):
             break
         smoothness = Smoothness(level)
-    return Join(smoothness, tuple(subtract(right, left) for left, right in ends), _same_direction(*ends[1]))
-
-
-def _same_direction(u: Sequence[Any], v: Sequence[Any]) -> bool:
+    u, v = ends[1]
     inner = dot(u, v)
-    return sign(inner) > 0 and is_zero(inner * inner - dot(u, u) * dot(v, v))
+    same_direction = sign(inner) > 0 and is_zero(inner * inner - dot(u, u) * dot(v, v))
+    return Join(smoothness, tuple(subtract(right, left) for left, right in ends), same_direction)

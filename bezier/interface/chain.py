@@ -2,11 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from functools import partial
 from typing import TYPE_CHECKING
 
-from bezier.chains.chain import Chain
 from bezier.chains.plan import ChainPlan, planned
 from bezier.chains.reader import read_chain
 from bezier.interface.function import given_table, keyed
@@ -67,9 +66,6 @@ def chain(
         given["half_space"] = [
             dict(zip(("normal", "offset"), p, strict=False)) if isinstance(p, list | tuple) else p for p in listed
         ]
-    return limited(partial(unlimited, partial(planned, chain_from(given))), timeout, memory, progress)
-
-
-def chain_from(given: Mapping[str, object]) -> Chain:
-    """The chain of these arguments; None for one that is not given. Raises ``InputError``."""
-    return read_chain(given_table(given, SOURCE, NAMES))
+    return limited(
+        partial(unlimited, partial(planned, read_chain(given_table(given, SOURCE, NAMES)))), timeout, memory, progress
+    )

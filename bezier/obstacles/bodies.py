@@ -146,7 +146,9 @@ def distance_enclosure(curve: Bezier, body: Body, rel: Fraction = REL) -> Enclos
     For a curve that meets the body the lower end is 0. Raises ``Unable`` when the width is not reached within
     ``MAX_PARTS`` parts, which also happens when the distance is 0.
     """
-    near, error = _rational(curve)
+    ends = [[bounds(c, BITS) for c in p] for p in curve.points]
+    near = Bezier(tuple(tuple((low + high) / 2 for low, high in p) for p in ends))
+    error = 2 * max(high - low for p in ends for low, high in p)
     heap = [_part(near, body, ZERO)]
     least = heap[0].high
     for _ in range(MAX_PARTS):
@@ -171,20 +173,7 @@ def _part(curve: Bezier, body: Body, known: Fraction) -> _CurvePart:
     at: Point = tuple(exactly(c) for c in middle)
     away = subtract(at, body.nearest(at))
     square = Fraction(dot(away, away))
-    return _CurvePart(max(known, _plane_bound(curve, body, away, square)), root_above(square, BITS), curve)
-
-
-def _plane_bound(curve: Bezier, body: Body, away: Point, square: Fraction) -> Fraction:
-    """The lower bound by the plane across ``away``, 0 where there is none."""
-    support = body.support(away)
-    if not square or support is None:
-        return ZERO
-    gap = min(Fraction(dot(away, c)) for c in curve.points) - support
-    return gap / root_above(square, BITS) if gap > 0 else ZERO
-
-
-def _rational(curve: Bezier) -> tuple[Bezier, Fraction]:
-    """A curve with rational control points near the given ones, and how far its points are off at most."""
-    ends = [[bounds(c, BITS) for c in p] for p in curve.points]
-    off = max(high - low for p in ends for low, high in p)
-    return Bezier(tuple(tuple((low + high) / 2 for low, high in p) for p in ends)), 2 * off
+    far, support = root_above(square, BITS), body.support(away)
+    if square and support is not None:  # the lower bound by the plane across ``away``
+        known = max(known, (min(Fraction(dot(away, c)) for c in curve.points) - support) / far)
+    return _CurvePart(known, far, curve)

@@ -19,7 +19,7 @@ from typing import Any
 
 from bezier.curves.scalar import Terms, Vector, dot, exactly, sign, subtract, terms_product, terms_scaled, terms_sum
 from bezier.obstacles.bodies import Body, Box, Cylinder, HalfSpaceBody, Rounded, around
-from bezier.obstacles.polyhedron import Facet, Point, Polytope
+from bezier.obstacles.polyhedron import Point, Polytope
 from qe.exact.ring import Poly, Ring
 from qe.formula.build import atom, conj
 from qe.formula.syntax import Formula, Relation
@@ -215,23 +215,17 @@ def _rounded(core: Polytope, radius: Fraction) -> list[Piece]:
     if not radius:
         return pieces
     for facet in core.facets:
-        pieces.append(_prism(core, facet, radius))
+        sides = (half_space(normal, offset) for normal, offset in facet.boundaries)
+        box = around([core.corners[i] for i in facet.corners], radius)
+        pieces.append(Piece((slab(facet.normal, facet.offset, radius), *sides), box))
     for i, j in core.edges:
         a, b = core.corners[i], core.corners[j]
         along = subtract(b, a)
-        ends = (
-            half_space(along, Fraction(dot(along, b))),
-            half_space(tuple(-x for x in along), -Fraction(dot(along, a))),
-        )
+        back = tuple(-x for x in along)
+        ends = half_space(along, Fraction(dot(along, b))), half_space(back, Fraction(dot(back, a)))
         pieces.append(Piece((tube(a, b, radius), *ends), around((a, b), radius)))
     pieces += [Piece((ball(corner, radius),), around((corner,), radius)) for corner in core.corners]
     return pieces
-
-
-def _prism(core: Polytope, facet: Facet, radius: Fraction) -> Piece:
-    sides = tuple(half_space(normal, offset) for normal, offset in facet.boundaries)
-    corners = [core.corners[i] for i in facet.corners]
-    return Piece((slab(facet.normal, facet.offset, radius), *sides), around(corners, radius))
 
 
 def _cylinder(body: Cylinder) -> list[Piece]:

@@ -99,20 +99,17 @@ def formula_pieces(table: Table) -> tuple[tuple[Piece, ...], Any]:
     if others:
         raise table.error("formula", "no free variables but x, y, z", shorten(", ".join(others)))
     try:
-        answer = None if formula.is_quantifier_free else _answer(formula)
+        answer: Any = None
+        if not formula.is_quantifier_free:
+            answer = qe.eliminate(formula, timeout=ELIMINATION_SECONDS)
+            if answer.formula is None:
+                raise Unable(answer.reason or "its quantifiers were not eliminated")
         pieces = _pieces(nnf(formula if answer is None else answer.formula))
     except (InputError, Unable) as error:
         raise table.error("formula", "a formula that can be used", str(error)) from None
     if not pieces:
         raise table.error("formula", "a set that is not empty", "one that no point satisfies")
     return tuple(Piece(piece) for piece in pieces), answer
-
-
-def _answer(formula: Formula) -> Any:
-    answer = qe.eliminate(formula, timeout=ELIMINATION_SECONDS)
-    if answer.formula is None:
-        raise Unable(answer.reason or "its quantifiers were not eliminated")
-    return answer
 
 
 def _pieces(formula: Formula) -> list[Constraints]:

@@ -34,7 +34,12 @@ def with_least_time(plan: Plan, quality: Quality, path: Path, timing: Timing, gi
     places = in_time(path, None)
     limits = [Limit(ORDERS[key], None, value) for key, value in timing.limits.items()]
     try:
-        least = least_time(places, limits) if given is None else checked(places, limits, _members(given))
+        if given is None:
+            least = least_time(places, limits)
+        else:
+            pairs = listed(given)
+            about = [(label.removeprefix(PREFIX), one) for label, one in pairs if label.startswith(PREFIX)]
+            least = checked(places, limits, Certificate.bundle(about))
     except InputError as error:
         raise Unable(f"no least time of the path is known: {error}") from None
     if not {*places.breaks} <= {*least.path.breaks}:
@@ -42,16 +47,9 @@ def with_least_time(plan: Plan, quality: Quality, path: Path, timing: Timing, gi
     motion = replace(moving(path, timing, _law(least), least.duration), at_least=least.bound, rests=bool(least.rests))
     proof = least.certificate
     members = [*listed(plan.certificate), *((PREFIX + label, one) for label, one in listed(proof))]
-    checks = {**plan.checks, CLAIM: verify(proof)} if given is None else plan.checks
-    return replace(
-        plan, quality=replace(quality, motion=motion), certificate=Certificate.bundle(members), checks=checks
-    )
-
-
-def _members(certificate: Certificate) -> Certificate:
-    """Those about the least time."""
-    parts = [(label.removeprefix(PREFIX), one) for label, one in listed(certificate) if label.startswith(PREFIX)]
-    return Certificate.bundle(parts)
+    whole, checks = Certificate.bundle(members), plan.checks
+    checks = {**checks, CLAIM: verify(proof)} if given is None else checks
+    return replace(plan, quality=replace(quality, motion=motion), certificate=whole, checks=checks)
 
 
 def _law(least: LeastTime) -> TimeLaw:

@@ -28,13 +28,7 @@ from bezier.problem import PlanMethod, Problem
 from qe.errors import BudgetExceeded, InternalError, Unable
 
 Limit = Callable[[], float | None]
-
-
-def unlimited() -> float | None:
-    """No limit on time."""
-    return None
-
-
+"""The seconds that are left, if there is a limit."""
 NEXT = {PlanMethod.QUADRATIC: ("Q1", "Q1"), PlanMethod.CUBIC: ("Q1", "Q2")}
 """The free control points next to Q0 and to R0."""
 SHARES = tuple(map(Fraction, ("21/20", "5/4", "3/2", "2", "3")))
@@ -62,7 +56,7 @@ def sentence(problem: Problem, via: str, free: str) -> st.Statement:
     return st.for_all(listed, st.implies(st.every(*norms), st.every(*same_place)))
 
 
-def radius_rule(problem: Problem, solvable: bool, remaining: Limit = unlimited) -> RadiusRule | None:
+def radius_rule(problem: Problem, solvable: bool, remaining: Limit = lambda: None) -> RadiusRule | None:
     """What the radius forces, None when no via point lies on the sphere.
 
     Raises ``Unable`` when the engine does not decide the sentences.
@@ -97,7 +91,7 @@ def stated_rule(problem: Problem, solvable: bool, larger: Fraction | None) -> Ra
     return RadiusRule(problem.method, forced, sentences, solvable, larger)
 
 
-def larger_radius(problem: Problem, remaining: Limit = unlimited) -> Fraction | None:
+def larger_radius(problem: Problem, remaining: Limit) -> Fraction | None:
     """A simple rational radius with which the best path does not stop at a via point, proved by its optimum."""
     square = problem.workspace.radius_squared
     if problem.method is PlanMethod.QUADRATIC:
@@ -124,7 +118,7 @@ def _short_decimal(low: Fraction, high: Fraction) -> Fraction:
         power /= 10
 
 
-def helps(problem: Problem, radius: Fraction, remaining: Limit = unlimited) -> bool:
+def helps(problem: Problem, radius: Fraction, remaining: Limit = lambda: None) -> bool:
     """Whether the optimum with this radius exists, has an accepted certificate and differs from both via points."""
     changed = replace(problem, workspace=Workspace(problem.workspace.kind, radius * radius), radius_is_auto=False)
     system = (cubic if problem.method is PlanMethod.CUBIC else quadratic).system(changed)

@@ -129,11 +129,15 @@ def _condition(item: OnPoint) -> str:
 
 def contradiction(system: System, certified: Any, reason: str, *more: Text) -> Section:
     """Why there is no path, with the multipliers that prove it."""
-    content = [html.paragraph(html.strong(f"{reason[0].upper()}{reason[1:]}.")), *more]
     proof = multipliers(system, certified)
-    if proof:
-        content += [html.heading("The proof"), html.paragraph(CONTRADICTION), proof]
-    return Section("none", "Why there is no path", html.joined(*content))
+    shown_proof = [html.heading("The proof"), html.paragraph(CONTRADICTION), proof] if proof else []
+    return no_path(reason, *more, *shown_proof)
+
+
+def no_path(reason: str, *more: Text) -> Section:
+    """Why there is no path."""
+    first = html.paragraph(html.strong(f"{reason[0].upper()}{reason[1:]}."))
+    return Section("none", "Why there is no path", html.joined(first, *more))
 
 
 def bounds(region: Any, variables: Iterable[str]) -> Markup:

@@ -232,7 +232,8 @@ class Grid:
     def arrays(self) -> tuple[Any, Any, Any]:
         """In floats: the lengths (K,), and the Bernstein coefficients of q' and q'' on each interval, (K, axes, n)."""
         degree = max(2, *(p.degree for row in self.path.pieces for p in row))
-        powers = np.array([[_padded(p, degree) for p in row] for row in self.path.pieces])
+        zeros = [0.0] * (degree + 1)
+        powers = np.array([[[*p.floats(), *zeros][: degree + 1] for p in row] for row in self.path.pieces])
         pieces = [cut.piece for cut in self.intervals]
         low, h = (np.array([float(getattr(cut, name)) for cut in self.intervals]) for name in ("low", "length"))
         first = _bernstein(powers[..., 1:] * np.arange(1, degree + 1), pieces, low, h)
@@ -240,10 +241,6 @@ class Grid:
         if not (np.all(np.isfinite(first)) and np.all(np.isfinite(second)) and np.all(h > 0)):
             raise Unable("the path has numbers that floating point cannot hold")
         return h, first, second
-
-
-def _padded(p: RationalPoly, degree: int) -> list[float]:
-    return [*p.floats(), *[0.0] * (degree - max(p.degree, -1))][: degree + 1]
 
 
 def _bernstein(powers: Any, pieces: list[int], low: Any, h: Any) -> Any:

@@ -10,8 +10,7 @@ import qe
 from bezier.obstacles.obstacle import PointInside
 from bezier.plans import Begun, Clock, Method, Outcome, Plan, Stated, Story
 from bezier.problem import Problem, ends_inside
-from bezier.report import html
-from bezier.report.html import Section
+from bezier.report import html, parts
 from qe.proof.certificate import Certificate
 
 if TYPE_CHECKING:
@@ -79,14 +78,13 @@ def draw(plan: RefutedPlan, folder: FilePath) -> Drawing:
 
 def story(plan: RefutedPlan, drawing: Drawing | None) -> Story:
     """Why there is no path."""
-    said = f"{reason(plan)[0].upper()}{reason(plan)[1:]}."
     more = "Every path begins at the start and ends at the goal, so none is clear of the obstacles, by any method."
     return Story(
         kind="a path",
         place="4",
         given=("start", "Q0", "R0", "goal"),
         claims={item.label: item.in_words() for item in plan.inside},
-        none=Section("none", "Why no path exists", html.paragraph(html.strong(said)) + html.paragraph(more)),
+        none=parts.no_path(reason(plan), html.paragraph(more)),
         sections=(),
     )
 

@@ -45,7 +45,7 @@ def story(plan: SinglePlan, drawing: Drawing | None) -> Story:
         place="4.1",
         given=("P0", "(a, h)", "(b, h)", f"P{given.degree}"),
         claims=_claims(plan),
-        none=None if plan.path else _none(plan),
+        none=None if plan.path else parts.no_path(reason(plan), html.paragraph("A higher degree may help.")),
         sections=tuple(section for section in sections if section is not None),
     )
 
@@ -98,13 +98,6 @@ def reason(plan: SinglePlan) -> str:
         f"no curve of degree {plan.task.degree} satisfies (4), keeps its heights between a and b and stays in the"
         " workspace: already at finitely many t these conditions contradict each other (the certificate shows it)"
     )
-
-
-def _none(plan: SinglePlan) -> Section:
-    stated = reason(plan)
-    content = html.paragraph(html.strong(f"{stated[0].upper()}{stated[1:]}."))
-    content += html.paragraph("A higher degree may help.")
-    return Section("none", "Why there is no path", content)
 
 
 def _question(given: Task, axis: Axis) -> list[str]:
