@@ -8,11 +8,11 @@ function of s.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from dataclasses import dataclass
 from enum import Enum
 from fractions import Fraction
-from functools import cache, cached_property
+from functools import cached_property
 
 from bezier.arm.elimination import LIFTED, TURNS, Geometry, Reduction
 from bezier.arm.inverse import geometry_of
@@ -74,9 +74,15 @@ class AlongCurve:
         return self._ratio(p).top
 
     @cached_property
-    def reduction(self) -> Callable[[int], Reduction]:
-        """The reduction with angles counted from ``TURNS[turn]``, by the number of the turn."""
-        return cache(lambda turn: self.geometry.reduce(Ring.of(NAMES), self.point, TURNS[turn]))
+    def _reductions(self) -> dict[int, Reduction]:
+        return {}
+
+    def reduction(self, turn: int) -> Reduction:
+        """The reduction with angles counted from ``TURNS[turn]``."""
+        known = self._reductions
+        if turn not in known:
+            known[turn] = self.geometry.reduce(Ring.of(NAMES), self.point, TURNS[turn])
+        return known[turn]
 
     @property
     def geometry(self) -> Geometry:

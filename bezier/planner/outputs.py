@@ -52,7 +52,7 @@ def all_or_none(target: FilePath) -> Iterator[FilePath]:
     Raises ``InputError`` at once when ``target`` cannot be written, so that no work is done in vain. If the
     block fails, ``target`` is as before.
     """
-    parent = next(folder for folder in target.absolute().parents if folder.exists() or folder == folder.parent)
+    parent = next((folder for folder in target.absolute().parents if folder.exists()), target.absolute())
     if target.exists() and not target.is_dir():
         raise InputError(f"--out {target}: expected a folder, found a file")
     if not parent.is_dir() or not os.access(parent, os.W_OK | os.X_OK):
