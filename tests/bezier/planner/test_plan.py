@@ -18,6 +18,7 @@ from bezier.cli import main
 from bezier.curves.scalar import dot, is_zero, same, sign
 from bezier.curves.workspace import Workspace, WorkspaceKind
 from bezier.methods.control.terms import named_multipliers
+from bezier.methods.cubic import formula as cubic
 from bezier.methods.quadratic import formula as quadratic
 from bezier.planner import radius_rule
 from bezier.planner.arm import check_arm
@@ -274,7 +275,7 @@ def test_what_is_forced_holds_at_the_optimum(q0, r0, method, ratio):
         problem = replace(problem, ratio=Fraction(ratio))
     rule = radius_rule.radius_rule(problem, solvable=True)
     assert rule is not None and set(rule.forced) == {n for n, v in zip(("Q0", "R0"), (q0, r0)) if dot(v, v) == square}
-    system = radius_rule._system(problem)
+    system = (cubic if method is PlanMethod.CUBIC else quadratic).system(problem)
     found = qe.minimize(system.objective().polynomial, system.in_free_points().formula)
     if found.is_optimal:
         for via, free in rule.forced.items():
