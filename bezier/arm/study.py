@@ -204,9 +204,8 @@ def _joined(group: list[Item]) -> Place:
         return group[0][2]
     limits = [k for *_, k in group]
     if -1 in limits or len(set(limits)) < len(limits):
-        raise Unable(
-            f"near s = {float(group[0][0]):.12g} places where joints are at limits are not separated from others"
-        )
+        where = f"near s = {float(group[0][0]):.12g}"
+        raise Unable(f"{where} places where joints are at limits are not separated from others")
     return Near(min(item[0] for item in group), max(item[1] for item in group), is_joined=True)
 
 

@@ -3,13 +3,13 @@ Nothing of it is believed."""
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from math import inf, isfinite, sqrt
 
 from bezier.chains.chain import Chain, Equation, Place, equations
-from bezier.chains.form import Affine, Form, Requirement
+from bezier.chains.form import Form, Requirement
 from qe.extras import wanted
 
 TOLERANCES = (1e-12, 1e-10, 1e-8)
@@ -42,7 +42,14 @@ def best(chain: Chain, size: int, rows: Sequence[Requirement], objective: Form |
     for row in rows:
         if row.squares:
             lengths.append(sqrt(max(float(row.right), 0.0)) / unit)
-            parts = [part for w, point in row.squares for part in _scaled(point, sqrt(w), at, d, unit)]
+            parts = [
+                (
+                    [(at[i][k], sqrt(w) * float(a)) for i, a in p.coefficients.items()],
+                    sqrt(w) * float(p.constant[k]) / unit,
+                )
+                for w, p in row.squares
+                for k in range(d)
+            ]
             program.cone([(excess, lengths[-1]), *parts])
         else:
             line = [(at[i][k], float(c)) for i, g in row.form.gradient.items() for k, c in enumerate(g)]
@@ -73,15 +80,6 @@ def best(chain: Chain, size: int, rows: Sequence[Requirement], objective: Form |
             weights.append(scale * z * unit / length)
         first += 1 + d * len(row.squares)
     return Proposal(tuple(tuple(x[k] * unit for k in place) for place in at), tuple(weights), most * unit)
-
-
-def _scaled(
-    point: Affine, factor: float, at: Sequence[Sequence[int]], dimension: int, unit: float
-) -> Iterator[tuple[list[tuple[int, float]], float]]:
-    """The coordinates of a multiple of a point, as forms in the variables, in the unit."""
-    for k in range(dimension):
-        terms = [(at[i][k], factor * float(a)) for i, a in point.coefficients.items()]
-        yield terms, factor * float(point.constant[k]) / unit
 
 
 @dataclass(frozen=True, slots=True)

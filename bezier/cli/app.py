@@ -317,9 +317,8 @@ def route(
     kind = "" if picture is None else picture.suffix.lower().removeprefix(".") or "svg"
     wish = wish if shortest or gap is not None else None
     work = partial(command.run, file=file, against=check, picture=kind, page=page is not None, wish=wish)
-    return answered(
-        work, common, certificate, picture, page
-    )  # no certificate where start or goal itself is in an obstacle
+    # no certificate where start or goal itself is in an obstacle
+    return answered(work, common, certificate, picture, page)
 
 
 def retime(

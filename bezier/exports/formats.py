@@ -71,17 +71,13 @@ def ppoly(track: Track) -> PPoly:
         track, parts = track.halved(), 2 * parts
     try:
         with np.errstate(over="raise", divide="raise", invalid="raise"):
-            powers = _powers(track)
+            # the highest power first: the coefficient of u^k is C(d, k) times the k-th difference
+            degree, length = track.control.shape[1] - 1, np.diff(track.breaks)[:, None]
+            differences = (np.diff(track.control, n=k, axis=1)[:, 0] / length**k for k in range(degree + 1))
+            powers = np.array([comb(degree, k) * row for k, row in enumerate(differences)][::-1])
     except FloatingPointError:
         raise Unable("powers of times so long or short are outside floating point; to_bspline has none") from None
     return PPoly(powers, track.breaks, extrapolate=False)
-
-
-def _powers(track: Track) -> Array:
-    """(d+1, n, 3), the highest power first: the coefficient of u^k is C(d, k) times the k-th difference."""
-    degree, length = track.control.shape[1] - 1, np.diff(track.breaks)[:, None]
-    rows = [comb(degree, k) * np.diff(track.control, n=k, axis=1)[:, 0] / length**k for k in range(degree + 1)]
-    return np.array(rows[::-1])
 
 
 NANO = 10**9
@@ -100,7 +96,10 @@ def ros_trajectory(
     Without ``joints`` a ``MultiDOFJointTrajectory`` of the end effector, which keeps the orientation of the frame; with
     three names a ``JointTrajectory`` of a gantry, whose prismatic joints are x, y and z.
     """
-    names = ["end_effector"] if joints is None else _joints(joints)
+    is_list = joints is None or (isinstance(joints, list | tuple) and all(isinstance(j, str) for j in joints))
+    if not is_list or (joints is not None and len(set(joints)) != 3):
+        raise wrong("joints", "a list of the names of three joints", joints)
+    names = ["end_effector"] if joints is None else joints
     if not 2 <= rows <= MOST_ROWS:
         raise InputError(f"rows: a number from 2 to {MOST_ROWS} expected, {shown(rows)} found")
     ticks = [round(Fraction(k, rows - 1) * Fraction(track.end) * NANO) for k in range(rows)]
@@ -121,12 +120,6 @@ def ros_trajectory(
 
 def _quoted(text: str) -> str:
     return json.dumps(text, ensure_ascii=False)
-
-
-def _joints(given: object) -> list[str]:
-    if not isinstance(given, list | tuple) or not all(isinstance(j, str) for j in given) or len(set(given)) != 3:
-        raise wrong("joints", "a list of the names of three joints", given)
-    return list(given)
 
 
 def _free(place: Array, velocity: Array, acceleration: Array) -> list[str]:

@@ -55,9 +55,8 @@ class Task:
     def __post_init__(self) -> None:
         result = index_pair(self.degree, self.x_ends, self.interval)
         if (self.p, self.q) != result:
-            raise InputError(
-                f"p = {self.p} and q = {self.q} where the interval gives p = {result[0]} and q = {result[1]}"
-            )
+            given = f"where the interval gives p = {result[0]} and q = {result[1]}"
+            raise InputError(f"p = {self.p} and q = {self.q} {given}")
         if not self.raised or any(axis.height is not None and axis.height <= 0 for axis in self.axes):
             raise InputError("no positive height for y or z")
 

@@ -26,11 +26,6 @@ PREFIX = "derivation of "
 """How the labels of the members of a bundle begin."""
 
 
-def label(name: str) -> str:
-    """The label of the member that has the derivation of what ``name`` says."""
-    return PREFIX + name
-
-
 def with_derivations(plan: Plan, clock: Clock) -> Plan:
     """The plan with the derivations of all its eliminations, in its certificate too, as far as each step is checked."""
     of_radius = {} if plan.radius_rule is None else plan.radius_rule.answers
@@ -66,7 +61,7 @@ def page(name: str, item: Derived, file: str = CERTIFICATE, title: str = "") -> 
 
 def members(derivations: Mapping[str, Derived]) -> list[tuple[str, Certificate]]:
     """The derivations as members of a bundle."""
-    return [(label(name), item.certificate) for name, item in derivations.items()]
+    return [(PREFIX + name, item.certificate) for name, item in derivations.items()]
 
 
 def of_obstacles(obstacles: Iterable[Obstacle]) -> dict[str, Any]:

@@ -73,10 +73,7 @@ def page(
     """``lines``: what the command says; ``findings``: of each piece and each obstacle; ``cards``: more for the first
     line."""
     quantities = [_limited(verdict.trajectory, outcome) for outcome in verdict.outcomes]
-    if links is not None:
-        quantities += _distances_of(links)
-    else:
-        quantities += _clearances(verdict.trajectory, findings)
+    quantities += _clearances(verdict.trajectory, findings) if links is None else _distances_of(links)
     if along is not None:
         distance = _limited(along.verdict.trajectory, along.verdict.outcomes[0])
         quantities.append(replace(distance, words=WORDS, bounds=(None, float(along.within))))
@@ -84,9 +81,8 @@ def page(
     good = good and all(finding.is_clear for finding in findings) and (links is None or not links.touches)
     head = ("quantity", "limit", "worst value", "at t", "for all t")
     said = Section("verdict", "What is proved", html.bullets(lines), short="verdict")
-    table = Section(
-        "limits", "Limits", html.table(head, [q.row for q in quantities], numbers=(1, 2, 3)), short="limits"
-    )
+    rows = html.table(head, [q.row for q in quantities], numbers=(1, 2, 3))
+    table = Section("limits", "Limits", rows, short="limits")
     drawn = Section("charts", "Over time", html.figures([(q.chart, q.words) for q in quantities]), short="charts")
     note = "Charts and values after ≈ are samples in floating point; every verdict is exact and holds for all t."
     cards = [Card("verdict", "kept" if good else "refuted", html.tone(good)), *cards]

@@ -74,7 +74,9 @@ def _chords(scene: Scene, disc: Solid, normals: Sequence[Point]) -> list[Side]:
     centre, radius = disc.corners[0], disc.radius
     on = [subtract(p.corners[0], centre) for p in ends]
     given = {tuple(c / radius for c in d) for d in on if dot(d, d) == radius**2}
-    ring = sorted({*normals, *given}, key=_turned)
+    # around the circle: by the half plane, then by the first coordinate
+    is_upper = {u: u[1] > 0 or (u[1] == 0 and u[0] > 0) for u in {*normals, *given}}
+    ring = sorted(is_upper, key=lambda u: (0, -u[0]) if is_upper[u] else (1, u[0]))
     sides, waiting = list[Side](), list(zip(ring, ring[1:] + ring[:1], strict=True))[::-1]
     while waiting and len(sides) < MOST_CHORDS:
         u, v = waiting.pop()
@@ -86,9 +88,3 @@ def _chords(scene: Scene, disc: Solid, normals: Sequence[Point]) -> list[Side]:
         else:
             sides.append((normal, level))
     return sides
-
-
-def _turned(unit: Point) -> tuple[int, Fraction]:
-    """Sorts unit vectors around the circle: the half plane, then the first coordinate."""
-    x, y = unit
-    return (0, -x) if y > 0 or (y == 0 and x > 0) else (1, x)

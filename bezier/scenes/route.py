@@ -146,9 +146,8 @@ class Route:
             lines.append(" ".join("(" + ", ".join(map(str, p)) + ")" for p in self.points))
         else:
             least, more = float(self.at_least or 0), ceil(10000 * self.longer) / 100
-            lines.append(
-                f"length at most {float(self.length):.6g}; no path is shorter than {least:.6g} (gap {more:g}%)"
-            )
+            shorter = f"no path is shorter than {least:.6g} (gap {more:g}%)"
+            lines.append(f"length at most {float(self.length):.6g}; {shorter}")
         return "\n".join(lines)
 
 

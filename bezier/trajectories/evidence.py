@@ -80,9 +80,8 @@ def members(verdict: Verdict) -> list[tuple[str, Certificate]]:
             listed.append((label, Certificate.step("instance", RING.names, sentence, TRUE, evidence)))
     if verdict.factor is not None:
         limits = [outcome.limit for outcome in verdict.outcomes]
-        for (label, excesses, sentence), length in zip(
-            claims(trajectory, limits, verdict.factor), trajectory.lengths, strict=True
-        ):
+        every = claims(trajectory, limits, verdict.factor)
+        for (label, excesses, sentence), length in zip(every, trajectory.lengths, strict=True):
             listed.append((label, refuted(sentence, excesses, length)))
     if not listed:
         raise Unable("nothing that is proved has a certificate: the trajectory is not continuous")

@@ -172,7 +172,9 @@ class _Search:
         outer, enough = outcome.point, _enough(outcome)
         most, low, high = self.sum_of(inner), Fraction(0), Fraction(1)
         fall = most - outcome.value
-        middle = _short((most - enough) / fall) if most > enough else low
+        middle = (most - enough) / fall if most > enough else low
+        longer = Fraction(ceil(middle * 2**SHARE_BITS), 2**SHARE_BITS)  # a short number
+        middle = longer if longer < 1 else middle
         cuts: list[Cut] = []
         for _ in range(BISECTIONS):
             result = self.violations(_between(inner, outer, middle))
@@ -200,12 +202,6 @@ class _Search:
 def _enough(outcome: Solution) -> Fraction:
     """A sum that is close enough to the bound."""
     return outcome.value + TOLERANCE * abs(outcome.value)
-
-
-def _short(share: Fraction) -> Fraction:
-    """A share a little larger with a short number, if that is below 1."""
-    longer = Fraction(ceil(share * 2**SHARE_BITS), 2**SHARE_BITS)
-    return longer if longer < 1 else share
 
 
 def _between(inner: Values, outer: Values, share: Fraction) -> Values:
