@@ -17,7 +17,7 @@ from fractions import Fraction
 from pathlib import Path as FilePath
 from typing import Any
 
-from bezier.curves.scalar import decimal_text, described, rational, scale
+from bezier.curves.scalar import decimal_text, described, generator_of, rational, scale
 from bezier.curves.sentences import dyadic_interval
 from bezier.motion import motion
 from bezier.paths import heights
@@ -152,12 +152,13 @@ def path_json(plan: Plan, path: Path) -> dict[str, Any]:
     A coordinate is ``{"exact", "decimal"}``; an irrational one also has ``in_field``, its coefficients of
     1, theta, theta^2, ... for the theta described under ``field``.
     """
+    theta = generator_of(c for point in path.points.values() for c in point)
     return {
         "format": "bezier-qe path",
         "version": 1,
         "unit": "mm",
         "problem": to_json(plan.problem),
-        "field": _field(path),
+        "field": None if theta is None else field_json(theta, FIELD_BITS),
         "points": {name: [_coordinate(c) for c in point] for name, point in path.points.items()},
         "curves": {
             name: [next(k for k, other in path.points.items() if other == p) for p in curve.points]
@@ -184,14 +185,6 @@ def _coordinate(value: Any) -> dict[str, Any]:
     if rational(value) is None and hasattr(value, "coefficients"):
         data["in_field"] = [str(c) for c in value.coefficients]
     return data
-
-
-def _field(path: Path) -> dict[str, Any] | None:
-    for point in path.points.values():
-        for value in point:
-            if rational(value) is None and hasattr(value, "field"):
-                return field_json(value.field.theta, FIELD_BITS)
-    return None
 
 
 HEADER = """\

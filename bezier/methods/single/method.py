@@ -159,7 +159,7 @@ def _programs(plan: SinglePlan) -> Section:
     said = "The maximum norm keeps this choice linear and all numbers rational."
     content.append(html.note(f"Where several points have the least sum: {TIE_BREAK}. {said}"))
     if plan.pieces:
-        pieces = [html.paragraph(f"{name}:") + html.pre(str(piece.least)) for name, piece in plan.pieces.items()]
+        pieces = [html.paragraph(f"{name}:") + html.pre(least) for name, least in plan.pieces.items()]
         none = html.note("For heights h without such a v, no curve satisfies (4).")
         content += [html.folded("The least sum v for every height h", none, *pieces)]
     return Section("linear", "The linear problem, solved exactly", html.joined(*content), "linear problem")
@@ -237,7 +237,7 @@ def json_entries(plan: SinglePlan) -> dict[str, Any]:
         "times": [described(t) for t in given.times],
         "tie_break": TIE_BREAK,
         "least_sums": {name: described(value) for name, value in plan.least_sums.items()},
-        "piecewise": {name: str(piece.least) for name, piece in plan.pieces.items()},
+        "piecewise": dict(plan.pieces),
         "dips": [],
         "dips_allowed": [],
         "leaves": [],

@@ -16,7 +16,7 @@ from bezier.input.task import Task, Values
 from bezier.methods.control.optimal_path import answered, verified
 from bezier.methods.single import formula as single_formula
 from bezier.methods.single.closed import NoCurve, ProvedCurve, close
-from bezier.methods.single.formula import Piecewise, Symbol
+from bezier.methods.single.formula import Symbol
 from bezier.methods.single.program import Chosen, Dip, choose, curve, dips, lowest
 from bezier.paths.path import Path, Proof, assemble, prove
 from bezier.plans import Begun, Clock, Outcome, Plan
@@ -68,7 +68,7 @@ class SinglePlan(Plan):
     chosen: tuple[Chosen, ...]
     printed: Printed | None
     closed: ProvedCurve | NoCurve | None
-    pieces: Mapping[str, Piecewise]
+    pieces: Mapping[str, str]
     attainable: str
     above: Mapping[str, Inside]
 
@@ -182,12 +182,12 @@ def task_of(problem: Problem) -> Task:
 
 
 @dataclass(frozen=True, slots=True)
-class Pieces(Mapping[str, Piecewise]):
-    """The least sum for every height, by axis; eliminated when it is asked for: the path does not need it."""
+class Pieces(Mapping[str, str]):
+    """The least sum for every height as a formula, by axis; eliminated when asked for: the path does not need it."""
 
     task: Task
 
-    def __getitem__(self, name: str) -> Piecewise:
+    def __getitem__(self, name: str) -> str:
         return _least_sums(self.task)[name]
 
     def __iter__(self) -> Iterator[str]:
@@ -198,10 +198,10 @@ class Pieces(Mapping[str, Piecewise]):
 
 
 @lru_cache(maxsize=8)
-def _least_sums(given: Task) -> dict[str, Piecewise]:
+def _least_sums(given: Task) -> dict[str, str]:
     if given.degree > PIECEWISE_DEGREE:
         return {}
-    return {axis.name: single_formula.eliminate(given, axis, {Symbol.HEIGHT}) for axis in given.raised}
+    return {axis.name: str(single_formula.eliminate(given, axis, {Symbol.HEIGHT}).least) for axis in given.raised}
 
 
 def _is_eliminated(given: Task) -> bool:

@@ -7,7 +7,6 @@ points and the multipliers. The control points are those of ``path.json``; every
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from fractions import Fraction
 from typing import Any
 
@@ -28,13 +27,6 @@ from bezier.problem import Problem
 from qe.convex.system import ConvexSystem
 from qe.errors import CertificateRejected
 from qe.proof.certificate import Certificate
-
-
-@dataclass(frozen=True, slots=True)
-class Told:
-    """A formula as the summary states it."""
-
-    least: str
 
 
 def restore(problem: Problem, evidence: Certificate, stated: Stated) -> plan.SinglePlan:
@@ -170,9 +162,9 @@ def certified_curve(problem: Problem, given: Task, stated: Stated) -> tuple[Bezi
     return drawn, values
 
 
-def _pieces(given: Task, stated: Stated) -> dict[str, Any]:
+def _pieces(given: Task, stated: Stated) -> dict[str, str]:
     """The formulas of the least sum for every height, as stated."""
     if given.degree > plan.PIECEWISE_DEGREE:
         return {}
     entries = stored.entry(stated.summary, "piecewise", dict, "summary.json: ")
-    return {axis.name: Told(stored.entry(entries, axis.name, str, "summary.json: piecewise.")) for axis in given.raised}
+    return {axis.name: stored.entry(entries, axis.name, str, "summary.json: piecewise.") for axis in given.raised}
