@@ -54,10 +54,8 @@ def clearance(
             members += derivations.members(derived)
         certificate = qe.Certificate.bundle(members)
         verdict = qe.verify(certificate) if members else None
-    met, state = (
-        survey.contacts(findings),
-        "none" if verdict is None else "accepted" if verdict.accepted else "rejected",
-    )
+    met = survey.contacts(findings)
+    state = "none" if verdict is None else "accepted" if verdict.accepted else "rejected"
     data: dict[str, Any] = {"status": "solved", "clear": not met}
     data |= {"findings": [survey.to_json(finding) for finding in findings], "certificates": state}
     last = f"{len(met)} of {len(findings)} pairs meet" if met else f"all {len(findings)} pairs are clear"

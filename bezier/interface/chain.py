@@ -66,6 +66,5 @@ def chain(
         given["half_space"] = [
             dict(zip(("normal", "offset"), p, strict=False)) if isinstance(p, list | tuple) else p for p in listed
         ]
-    return limited(
-        partial(unlimited, partial(planned, read_chain(given_table(given, SOURCE, NAMES)))), timeout, memory, progress
-    )
+    asked = read_chain(given_table(given, SOURCE, NAMES))
+    return limited(partial(unlimited, partial(planned, asked)), timeout, memory, progress)
