@@ -158,7 +158,7 @@ def test_each_is_accepted_and_about_its_question(plain, plan):
     assert set(plan.derivations) == set(plain.eliminations) and not plan.unproved
     for name, question in derivations.questions(plan).items():
         if name in plan.derivations:
-            certificate = members(plan)[derivations.label(name)]
+            certificate = members(plan)[derivations.PREFIX + name]
             assert certificate.kind == Kind.DERIVATION
             assert qe.verify(certificate, formula=question).accepted
     assert members(plain).items() <= members(plan).items()
