@@ -40,6 +40,10 @@ class Family:
         """The coordinates of the point at the parameter t."""
         return [st.bracketed(st.bernstein(column, TIME)) for column in zip(*self.points, strict=True)]
 
+    def inside(self, conditions: Iterable[Condition]) -> st.Statement:
+        """The whole curve satisfies the conditions: a formula in the parameters, or a sentence without any."""
+        return _for_all_t(_all(conditions, [self.at()]))
+
     def polygon_inside(self, conditions: Iterable[Condition]) -> st.Statement:
         """All control points satisfy the conditions."""
         return _all(conditions, self.points)
@@ -106,4 +110,4 @@ def curve_inside(curve: Bezier, conditions: Sequence[Condition], *, timeout: flo
     if any(rational(c) is None for point in curve.points for c in point):
         raise InputError("a curve with rational coordinates expected")
     family = Family([[st.number(exactly(c)) for c in point] for point in curve.points])
-    return qe.decide(_for_all_t(_all(conditions, [family.at()])).formula, timeout=timeout)
+    return qe.decide(family.inside(conditions).formula, timeout=timeout)
