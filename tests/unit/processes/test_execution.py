@@ -302,8 +302,11 @@ def test_a_limit_of_two_seconds_was_overrun_by_an_eighth(timeout: float | None, 
     assert grace_of(timeout) == pytest.approx(grace)
 
 
-def test_the_garbage_collector_is_as_it_was_after_a_question() -> None:
+def test_the_garbage_collector_is_as_it_was_after_a_question(monkeypatch: pytest.MonkeyPatch) -> None:
     """Also after one inside another, and one that fails."""
+    monkeypatch.setattr(
+        "qe.processes.execution.SELDOM", (30_000, 30, 60)
+    )  # commands in this process have the usual ones
     before = gc.get_threshold()
 
     def outer_question(_: Budget) -> tuple[object, ...]:
