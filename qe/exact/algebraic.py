@@ -9,6 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable
 from fractions import Fraction
+from operator import mul
 
 from flint import arb, fmpq, fmpz_poly
 
@@ -19,7 +20,7 @@ from qe.exact.algebraic_text import format_root
 from qe.exact.balls import FIRST_PRECISION, ball_sign, ends, hull, lower_end, precision, upper_end
 from qe.exact.combined_roots import combined_polynomial, power_polynomial
 from qe.exact.isolate import Interval, isolate, sign_at
-from qe.exact.python_number import PythonNumber, exact, exact_operand
+from qe.exact.python_number import Operation, PythonNumber, exact, exact_operand
 
 STALLED_BITS = 8
 """An enclosure that is right to so many bits and gets no better is held up by rounding, not by the polynomial."""
@@ -224,14 +225,18 @@ class RealAlgebraic(PythonNumber):
     def __neg__(self) -> RealAlgebraic:
         return _image(self, lambda p: p(fmpz_poly([0, -1])), lambda x: -x)
 
-    def _plus(self, other: RealAlgebraic) -> RealAlgebraic:
-        return _combine(self, other, "+")
+    def _with(self, operation: Operation, other: RealAlgebraic) -> RealAlgebraic:
+        """A root of the resultant of the two minimal polynomials, picked by enclosure."""
+        if self.is_rational and other.is_rational:
+            return RealAlgebraic.rational(operation(self.as_fmpq(), other.as_fmpq()))
+        if operation is mul and (self.sign() == 0 or other.sign() == 0):
+            return RealAlgebraic.rational(0)
 
-    def _minus(self, other: RealAlgebraic) -> RealAlgebraic:
-        return _combine(self, other, "-")
+        def enclosure(bits: int) -> arb:
+            with precision(bits + 16):
+                return operation(self.ball(bits), other.ball(bits))
 
-    def _times(self, other: RealAlgebraic) -> RealAlgebraic:
-        return _combine(self, other, "*")
+        return select_root(combined_polynomial(self.poly, other.poly, operation), enclosure)
 
     def inverse(self) -> RealAlgebraic:
         """1/self; ``ZeroDivisionError`` for zero."""
@@ -336,19 +341,3 @@ def _image(a: RealAlgebraic, transform: Callable[[fmpz_poly], fmpz_poly], value:
 
 
 MAX_EXPONENT = 10_000
-
-
-def _combine(a: RealAlgebraic, b: RealAlgebraic, operation: str) -> RealAlgebraic:
-    """a+b, a-b or a*b: a root of the resultant of the two minimal polynomials, picked by enclosure."""
-    if a.is_rational and b.is_rational:
-        x, y = a.as_fmpq(), b.as_fmpq()
-        return RealAlgebraic.rational(x + y if operation == "+" else x - y if operation == "-" else x * y)
-    if operation == "*" and (a.sign() == 0 or b.sign() == 0):
-        return RealAlgebraic.rational(0)
-
-    def enclosure(bits: int) -> arb:
-        with precision(bits + 16):
-            x, y = a.ball(bits), b.ball(bits)
-            return x + y if operation == "+" else x - y if operation == "-" else x * y
-
-    return select_root(combined_polynomial(a.poly, b.poly, operation), enclosure)

@@ -5,12 +5,15 @@ Loos, Computing in algebraic extensions, 1982.
 
 from __future__ import annotations
 
+from collections.abc import Callable
+from operator import add, mul
+
 from flint import fmpz, fmpz_mpoly, fmpz_mpoly_ctx, fmpz_poly
 
 _PAIR = fmpz_mpoly_ctx.get(("y", "z"), "lex")
 
 
-def combined_polynomial(p: fmpz_poly, q: fmpz_poly, operation: str) -> fmpz_poly:
+def combined_polynomial(p: fmpz_poly, q: fmpz_poly, operation: Callable[..., object]) -> fmpz_poly:
     """A polynomial in z with root x∘y for all roots x of p, y of q: Res_y(q(y), p(z ∓ y)) or Res_y(q, y^n p(z/y))."""
     y, z = _PAIR.gens()
     second = _PAIR.constant(0)
@@ -18,10 +21,10 @@ def combined_polynomial(p: fmpz_poly, q: fmpz_poly, operation: str) -> fmpz_poly
         second += c * y**i
     first = _PAIR.constant(0)
     n = p.degree()
-    base = z - y if operation == "+" else z + y
+    base = z - y if operation is add else z + y
     for i, c in enumerate(p.coeffs()):
         if c:
-            first += c * (base**i if operation != "*" else z**i * y ** (n - i))
+            first += c * (base**i if operation is not mul else z**i * y ** (n - i))
     return _eliminated(first, second)
 
 

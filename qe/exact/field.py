@@ -10,13 +10,14 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 from fractions import Fraction
+from operator import mul, sub
 
 from flint import arb, fmpq, fmpq_mat, fmpq_poly, fmpz, fmpz_poly
 
 from qe.errors import InputError
 from qe.exact.algebraic import RealAlgebraic, irreducible_factors, irreducible_roots, select_root
 from qe.exact.balls import FIRST_PRECISION, precision
-from qe.exact.python_number import PythonNumber, exact_operand
+from qe.exact.python_number import Operation, PythonNumber, exact_operand
 from qe.exact.radicals import format_number
 
 Rational = int | Fraction
@@ -166,14 +167,9 @@ class FieldElement(PythonNumber):
     def __neg__(self) -> FieldElement:
         return FieldElement(self.field, -self.value)
 
-    def _plus(self, other: FieldElement) -> FieldElement:
-        return FieldElement(self.field, self.value + other.value)
-
-    def _minus(self, other: FieldElement) -> FieldElement:
-        return FieldElement(self.field, self.value - other.value)
-
-    def _times(self, other: FieldElement) -> FieldElement:
-        return FieldElement(self.field, self.value * other.value % self.field.modulus)
+    def _with(self, operation: Operation, other: FieldElement) -> FieldElement:
+        value = operation(self.value, other.value)
+        return FieldElement(self.field, value % self.field.modulus if operation is mul else value)
 
     def inverse(self) -> FieldElement:
         """1/self; ``ZeroDivisionError`` for zero."""
@@ -193,7 +189,7 @@ class FieldElement(PythonNumber):
         base = self if exponent >= 0 else self.inverse()
         result = self.field.rational(1)
         for _ in range(abs(exponent)):
-            result = result._times(base)
+            result = result._with(mul, base)
         return result
 
     # --- order -----------------------------------------------------------------------------
@@ -212,7 +208,7 @@ class FieldElement(PythonNumber):
         value = self._operand(other) if comparable else None
         if value is None:
             return self.to_algebraic()._order(other)
-        return self._minus(value).sign()
+        return self._with(sub, value).sign()
 
     # --- conversion ------------------------------------------------------------------------
     def to_algebraic(self) -> RealAlgebraic:

@@ -71,16 +71,22 @@ def _comparison(operation: Callable[[float, int], bool]) -> Callable[[Any, objec
     return holds
 
 
-def _arithmetic(operation: Operation, exactly: Operation) -> tuple[Callable[[Any, object], Any], ...]:
-    """An operator and the one that Python calls where the number is on the right; ``exactly``: of two of one kind."""
+def _arithmetic(operation: Operation) -> tuple[Callable[[Any, object], Any], ...]:
+    """An operator and the one that Python calls where the number is on the right; division is by the inverse."""
+    divides = operation is operator.truediv
+    used = operator.mul if divides else operation
 
     def left(self: PythonNumber, other: object) -> Any:
         value = self._operand(other)
-        return in_floats(operation, self, other) if value is None else exactly(self, value)
+        if value is None:
+            return in_floats(operation, self, other)
+        return self._with(used, value.inverse() if divides else value)
 
     def right(self: PythonNumber, other: object) -> Any:
         value = self._operand(other)
-        return in_floats(operation, other, self) if value is None else exactly(value, self)
+        if value is None:
+            return in_floats(operation, other, self)
+        return value._with(used, self.inverse() if divides else self)
 
     return left, right
 
@@ -123,13 +129,8 @@ class PythonNumber(SymPyForm):
         """What arithmetic with it takes, as a number of this kind; None for what it cannot take exactly."""
 
     @abstractmethod
-    def _plus(self, other: Self) -> Self: ...
-
-    @abstractmethod
-    def _minus(self, other: Self) -> Self: ...
-
-    @abstractmethod
-    def _times(self, other: Self) -> Self: ...
+    def _with(self, operation: Operation, other: Self) -> Self:
+        """The sum, the difference or the product: ``operation`` is Python's."""
 
     @abstractmethod
     def _power(self, exponent: int) -> Self: ...
@@ -197,10 +198,10 @@ class PythonNumber(SymPyForm):
         )
 
     # --- arithmetic --------------------------------------------------------------------------------------
-    __add__, __radd__ = _arithmetic(operator.add, lambda a, b: a._plus(b))
-    __sub__, __rsub__ = _arithmetic(operator.sub, lambda a, b: a._minus(b))
-    __mul__, __rmul__ = _arithmetic(operator.mul, lambda a, b: a._times(b))
-    __truediv__, __rtruediv__ = _arithmetic(operator.truediv, lambda a, b: a._times(b.inverse()))
+    __add__, __radd__ = _arithmetic(operator.add)
+    __sub__, __rsub__ = _arithmetic(operator.sub)
+    __mul__, __rmul__ = _arithmetic(operator.mul)
+    __truediv__, __rtruediv__ = _arithmetic(operator.truediv)
 
     def __pow__(self, exponent: object) -> Any:
         if isinstance(exponent, int):

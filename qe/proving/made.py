@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 
 from qe.errors import CertificateRejected
@@ -85,8 +85,8 @@ class Made:
         self.step(SIGNS, before, after, step["evidence"], used)
 
     def place(self, part: Formula) -> Place:
-        """Where it stands, as a whole or among the members of a conjunction or disjunction."""
-        found = _place(self.current, part)
+        """The place nearest to the root where it stands."""
+        found = min(places(self.current, part), key=len, default=None)
         if found is None:
             raise self.claim.fail("a part that is to be replaced is not there")
         return found
@@ -200,17 +200,15 @@ class Made:
         return replace(self.claim, rule=rule, before=before, after=after, evidence=Entry(evidence, self.claim.path))
 
 
-def _place(formula: Formula, part: Formula) -> Place | None:
-    """The place nearest to the root."""
-    level: list[tuple[Place, Formula]] = [((), formula)]
-    while level:
-        for place, node in level:
-            if node == part or (
-                isinstance(node, And | Or) and isinstance(part, type(node)) and set(part.args) <= set(node.args)
-            ):
-                return place
-        level = [((*place, k), child) for place, node in level for k, child in enumerate(children(node))]
-    return None
+def places(formula: Formula, part: Formula, path: Place = ()) -> Iterator[Place]:
+    """Where a formula stands, or is a part of a conjunction or disjunction; nothing inside of where it does."""
+    if formula == part or (
+        isinstance(formula, And | Or) and isinstance(part, type(formula)) and {*part.args} <= {*formula.args}
+    ):
+        yield path
+        return
+    for k, child in enumerate(children(formula)):
+        yield from places(child, part, (*path, k))
 
 
 def solved(equation: Atom, name: str) -> Json:

@@ -5,7 +5,7 @@ Nothing here is trusted: a step counts as proved when the checker of its rule ac
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field, replace
 from fractions import Fraction
 from typing import TypeVar
@@ -17,7 +17,7 @@ from qe.errors import CertificateRejected, Contradiction, InternalError, Unable
 from qe.exact.ring import Poly, Ring
 from qe.formula.build import conj
 from qe.formula.syntax import FALSE, TRUE, And, Exists, Formula, Or
-from qe.formula.traverse import children, clashes, conjuncts, polynomials, subformula
+from qe.formula.traverse import clashes, conjuncts, polynomials, subformula
 from qe.kernel.block import block_goals, existential
 from qe.kernel.boolean import ByLemmas
 from qe.kernel.derivation import check_derivation, limits_of, replaced
@@ -34,6 +34,7 @@ from qe.proof.step import Nested, Place, Step
 from qe.proving.elaborators import ELABORATORS
 from qe.proving.lemma_list import EMPTY, identities, with_cases
 from qe.proving.lemmas import refuting
+from qe.proving.made import places
 from qe.proving.nested import derivations_within, names_within, proved_inside
 from qe.proving.primitive_names import PRIMITIVE_OF, PROJECTION, QUANTIFIERS, SIGNS, STEPS, THEOREM
 from qe.proving.remembering import Accepted, remembering, step_key
@@ -136,21 +137,11 @@ class Prover:
     def taken(self, step: Step, current: Formula) -> Formula:
         """The formula after a step at each of its places, one after the other."""
         for _ in step.places:
-            found = next(self._places(current, step.before), None)
+            found = next(places(current, step.before), None)
             if found is None:
                 break
             current = self._at(found, step, current)
         return current
-
-    def _places(self, formula: Formula, before: Formula, path: Place = ()) -> Iterator[Place]:
-        """Where a formula stands, or is a part of a conjunction or disjunction."""
-        if formula == before or (
-            isinstance(formula, And | Or) and isinstance(before, type(formula)) and {*before.args} <= {*formula.args}
-        ):
-            yield path
-            return
-        for k, child in enumerate(children(formula)):
-            yield from self._places(child, before, (*path, k))
 
     def _at(self, place: Place, step: Step, current: Formula) -> Formula:
         if step.rule == REDUNDANT:
@@ -331,8 +322,8 @@ class Prover:
         current = step.before
         for part in log.steps():
             before, after, context = (moved(f, self.ring) for f in (part.before, part.after, part.context))
-            places = tuple(self._places(current, before))
-            current = inner.taken(Step(part.rule, before, after, context, part.evidence, places), current)
+            step_at = Step(part.rule, before, after, context, part.evidence, tuple(places(current, before)))
+            current = inner.taken(step_at, current)
         if current != step.after:
             inner.joined(current, step.after)
         shown = None if inner.unchecked else self._named(step.rule, step, (), {"steps": inner.steps})
