@@ -98,8 +98,7 @@ def _pivoted(system: LinearRows, budget: Budget, work: int | None = None) -> tup
         if (row.is_equation or factor > 0) and conflict is None:
             conflict = bounds.at_most(x, bound, strict=row.is_strict, reason=number)
         if conflict is not None:
-            (other,) = conflict - {number} or {number}
-            return refutation([(number, Fraction(1)), (other, Fraction(-1))])
+            return refutation(bounds.contradiction())
     try:
         if bounds.conflict(lambda: budget.check("linear conditions")) is not None:
             return refutation(bounds.contradiction())

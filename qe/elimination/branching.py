@@ -12,7 +12,7 @@ the relaxation is furthest from the truth. The evidence: one identity for each p
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Hashable, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from fractions import Fraction
 from itertools import chain, pairwise
@@ -85,7 +85,6 @@ class _Relaxation(FormBounds):
 
     def __init__(self) -> None:
         super().__init__()
-        self._failed: list[tuple[Hashable, Fraction]] = []
         self._forms: dict[Powers, LinearForm] = {}
 
     def _bound_square(self, monomial: Monomial) -> None:
@@ -97,17 +96,14 @@ class _Relaxation(FormBounds):
         form = self._forms.get(powers) or over_monomials(poly)
         self._forms[powers] = form
         x, kind = self.of(form.direction), relation if form.scale > 0 else relation.flipped
-        for signs, side, bounded in ((kind.signs, 1, self.at_least), (kind.signs, -1, self.at_most)):
-            if -side not in signs and not self._failed:
-                conflict = bounded(x, form.bound, strict=0 not in signs, reason=powers)
-                if conflict:
-                    (other,) = conflict - {powers} or {powers}
-                    self._failed = [(powers, Fraction(-side)), (other, Fraction(side))]
+        for side, bounded in ((1, self.at_least), (-1, self.at_most)):
+            if -side not in kind.signs and not self.stuck:
+                bounded(x, form.bound, strict=0 not in kind.signs, reason=powers)
 
     def undo(self, mark: int, forms: int) -> None:
         """Back to a state with so many forms."""
         self.back(mark)
-        self._failed = []
+        self.stuck = []
         for direction in [*self.forms][forms:]:
             x = self.forms.pop(direction)
             if len(direction) > 1:  # else it is a monomial, which other forms have
@@ -123,10 +119,9 @@ class _Relaxation(FormBounds):
             budget.check("branching")
             done = self.work
 
-        if not self._failed and self.conflict(check) is None:
+        if not self.stuck and self.conflict(check) is None:
             return None
-        parts = self._failed or self.contradiction()
-        self._failed = []
+        parts, self.stuck = self.contradiction(), []
         weights: dict[Powers, Fraction] = {(): Fraction(0)}
         sums = Counter[Monomial]()
         for powers, c in parts:

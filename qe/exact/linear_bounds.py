@@ -32,7 +32,7 @@ class TooMuch(Exception):
 class Bounds:
     """The bounds of variables, as they come and go; ``reasons`` of a conflict are those given with the bounds.
 
-    ``stuck``: the contradiction that ``conflict`` found last; none where there was none.
+    ``stuck``: the contradiction that was found last; none where ``conflict`` found none.
     """
 
     def __init__(self) -> None:
@@ -69,6 +69,7 @@ class Bounds:
         if x in bounds and (bounds[x][0] >= value if side > 0 else bounds[x][0] <= value):
             return None
         if x in other and (other[x][0] < value if side > 0 else other[x][0] > value):
+            self.stuck = [(x, side < 0, fmpq(-side), value, reason), (x, side > 0, fmpq(side), *other[x])]
             return {reason, other[x][1]}
         self._changed.append((bounds, x, bounds.get(x)))
         bounds[x] = value, reason
@@ -188,7 +189,7 @@ class LinearBounds(Bounds):
             pivots += 1
 
     def contradiction(self) -> list[tuple[Hashable, Fraction]]:
-        """After a conflict on a row: the reasons, each with the factor of the variable that it bounds; these multiples
+        """After a conflict: the reasons, each with the factor of the variable that it bounds; these multiples
         of the variables add up to zero, and those of their bounds to a contradiction."""
         assert self.stuck
         return [(reason, Fraction(int(c.p), int(c.q))) for _, _, c, _, reason in self.stuck]

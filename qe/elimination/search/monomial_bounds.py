@@ -36,11 +36,10 @@ class MonomialBounds:
         for bounds in self.offered.values():
             bounds.sort(key=lambda bound: bound[0])
 
-    def weakened(self, conflict: set[Hashable]) -> list[Atom]:
+    def weakened(self) -> list[Atom]:
         """Atoms that contradict each other as those do that ``conflict`` found last, as weak as those offered can be:
         x <= 3 for x = 0 where that is enough. They follow from these one by one."""
-        reasons = self.bounds.weakened(self._offered) if self.bounds.stuck else conflict
-        return [reason for reason in reasons if isinstance(reason, Atom)]
+        return [reason for reason in self.bounds.weakened(self._offered) if isinstance(reason, Atom)]
 
     def _offered(self, x: int, above: bool) -> Iterator[tuple[Fraction, bool, Hashable]]:
         """The bounds of a variable, the weakest first."""

@@ -91,7 +91,7 @@ class Theory:
             conflict = self.bounds.conflict(rest, lambda: self.budget.check("search: bounds"))
             if conflict is None:
                 break
-            conflicts.append(self.bounds.weakened(conflict))
+            conflicts.append(self.bounds.weakened())
             rest = [a for a in rest if a not in conflict]
         return conflicts
 
