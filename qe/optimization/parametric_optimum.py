@@ -30,7 +30,7 @@ from qe.options import Budget, Options
 from qe.processes.execution import perform
 from qe.processes.limits import Limits
 from qe.proof.answer import Answer, Guarantee
-from qe.proof.cells import Cell, CellTable
+from qe.proof.cells import CellTable
 from qe.proof.certificate import Certificate
 from qe.proof.multipliers import OptimumStatus
 from qe.regions.by_value import cases_by_value, effort, is_determined
@@ -217,8 +217,9 @@ def optimum_of(sign: int, goal: Goal, *, budget: Budget | None = None, check: bo
     taken = values.formula
     order = (*goal.parameters, goal.value)
     table = decompose(taken, order, ("",) * len(order), budget=limits).table
-    closed = replace(table, root=_closed(table.root, len(order), sign))
-    cases = list(_by_value(merge(closed, budget=limits), sign))
+    kinds = {end: ends(table, sign, end) for end in End}
+    cases = [pair for end, cells in kinds.items() for pair in _by_value(merge(cells, budget=limits), end)]
+    cases.sort(key=lambda pair: pair[0])
     roots = list(dict.fromkeys(case.value.poly for _, case in cases if case.value is not None and case.attained))
     attained = None
     if goal.variables and roots:
@@ -230,7 +231,6 @@ def optimum_of(sign: int, goal: Goal, *, budget: Budget | None = None, check: bo
             cases += _with_points(merge(attained, budget=limits), len(goal.parameters))
             cases.sort(key=lambda pair: pair[0])
     listed = _for_numbers([case for _, case in cases], goal.parameters)
-    kinds = {end: ends(table, sign, end) for end in End}
     optimum = ParametricOptimum(
         cases=listed,
         stated=_stated(listed, kinds if attained is None else {**kinds, End.ATTAINED: attained}, goal, limits),
@@ -247,26 +247,11 @@ def optimum_of(sign: int, goal: Goal, *, budget: Budget | None = None, check: bo
     return with_proof(optimum, goal.taken, values, "values", members, limits, check=check)
 
 
-def _closed(cell: Cell, levels: int, sign: int) -> Cell:
-    """The values that are taken, so many levels above a cell, with all above them (``sign`` -1: below): cells of
-    parameters with the same optimum differ in nothing else."""
-    if cell.stack is None:
-        return cell
-    cells = cell.stack.cells
-    if levels > 1:
-        cells = tuple(_closed(below, levels - 1, sign) for below in cells)
-    else:
-        first = next((k for k, below in enumerate(cells[::sign]) if below.truth), len(cells))
-        cells = tuple(replace(below, truth=k >= first) for k, below in enumerate(cells[::sign]))[::sign]
-    return replace(cell, stack=replace(cell.stack, cells=cells))
-
-
-def _by_value(pieces: Iterable[Piece], sign: int) -> Iterator[tuple[Number, Case]]:
-    """The cases of the pieces of the values from the optimum on, each with its place."""
+def _by_value(pieces: Iterable[Piece], end: End) -> Iterator[tuple[Number, Case]]:
+    """The cases of the pieces of the ends of a kind, each with its place."""
     for piece in pieces:
         *ranges, values = piece.ranges
-        end, closed = values.end(lower=sign > 0)
-        yield _place(piece), Case(tuple(ranges), end, end is not None and closed)
+        yield _place(piece), Case(tuple(ranges), values.lower, end is End.ATTAINED)
 
 
 def _with_points(pieces: Iterable[Piece], size: int) -> Iterator[tuple[Number, Case]]:
