@@ -114,6 +114,8 @@ def number_for_a_variable(rng: random.Random, data: Data) -> None:
 def another_scale(rng: random.Random, data: Data) -> None:
     """A variable moved, turned round, or replaced by a square or a product."""
     ring = ring_of(data)
+    if not ring.size:
+        return
     i = rng.randrange(ring.size)
     x, y = ring.gen(i), ring.gen(rng.randrange(ring.size))
     image = rng.choice((x + 1, -x, x * 2, x * x, x * y, y, -y))
@@ -123,6 +125,8 @@ def another_scale(rng: random.Random, data: Data) -> None:
 def other_names(rng: random.Random, data: Data) -> None:
     """Two variables exchange their names, or get one name: free ones are captured."""
     ring = ring_of(data)
+    if not ring.size:
+        return
     i, j = (rng.randrange(ring.size) for _ in range(2))
     images = {i: ring.gen(j), **({j: ring.gen(i)} if rng.random() < 0.5 else {})}
     told = {ring.names[k]: ring.names[image.variables[0]] for k, image in images.items()}
