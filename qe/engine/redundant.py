@@ -156,8 +156,10 @@ def _without_parts_on_cells(formula: Formula, table: CellTable, context: Context
         if part is None:
             return formula, True
         again = OnDemand(Repeated(decomposed, part.sentence, context.options))
-        nested = Nested(part.sentence, (Step("cells", part.sentence, FALSE, evidence={"proof": again}),), FALSE)
-        formula = _dropped(formula, part, nested, context)
+        step = Step("simplification", part.sentence, FALSE)
+        if simplify(conj(part.conditions), watch=context.budget.check) != FALSE:
+            step = Step("cells", part.sentence, FALSE, evidence={"proof": again})
+        formula = _dropped(formula, part, Nested(part.sentence, (step,), FALSE), context)
 
 
 def _without_excluded_parts(formula: Formula, context: Context, points: Points | None = None) -> Formula:
