@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import re
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from fractions import Fraction
@@ -21,7 +22,6 @@ from qe.errors import InputError
 from qe.exact.number import Number, simplest
 from qe.formula.build import conj, convert, exists
 from qe.formula.syntax import FALSE, Formula
-from qe.io.latex import name as name_in_latex
 from qe.io.latex_text import formula_in_latex, term_in_latex
 from qe.optimization.global_optimum import GlobalOptimum, attained_by, number_conditions
 from qe.optimization.minimisers import End, ends, minimisers, points
@@ -36,7 +36,7 @@ from qe.proof.multipliers import OptimumStatus
 from qe.regions.by_value import cases_by_value, effort, is_determined
 from qe.regions.parameter_conditions import Terms, both, only
 from qe.services import SymPyForm
-from qe.spelling import NUMBERS, quoted
+from qe.spelling import NUMBERS, QUOTED, WORD, quoted
 
 Place = tuple[Range, ...]
 
@@ -100,8 +100,8 @@ class Stated(NamedTuple):
 
 def _in_latex(said: str) -> str:
     """What is said of a variable, or that some have any value."""
-    if said.startswith("any "):
-        return r",\,".join(map(name_in_latex, said.removeprefix("any ").split(", "))) + r" \in \mathbb{R}"
+    if said.startswith("any ") and said[4] not in "<>=/":  # a variable may have that name
+        return r",\,".join(map(term_in_latex, re.findall(f"{QUOTED}|{WORD}", said[4:]))) + r" \in \mathbb{R}"
     return formula_in_latex(said)
 
 

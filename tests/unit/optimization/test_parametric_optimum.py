@@ -213,6 +213,15 @@ def test_for_machines_and_for_print():
 
 
 @each(
+    ("any^2 + a*any", "a", r"\frac{-a^{2}}{4}\ \text{at}\ \mathrm{any} = \frac{-a}{2} & "),
+    ("a*`b c`^2 + y*0", "a", r"0\ \text{at}\ \mathrm{b\ c} \in \mathbb{R} & a = 0"),
+)
+def test_odd_names_in_latex(objective, parameters, line):
+    """A variable of the name any was taken for the word."""
+    assert line in qe.minimize(objective, parameters=parameters).to_latex()
+
+
+@each(
     ({}, "a value for each of a expected"),
     ({"a": 1, "b": 2}, "a value for each of a expected"),
     ({"a": "x"}, "an exact number for a expected"),
