@@ -30,6 +30,8 @@ def body(text: str) -> Block:
         ("ex x, y. x - y > 1 and y < 0", []),
         ("ex x, y. x > y", []),
         ("ex x, y, z, u. x - y < 0 and z - u < 0 and x*z > 1 and y*u > 1", [[2]]),
+        # x with y moves z and u: after it another of them may be the least
+        ("ex x, y, z, u. x^3*y^2*z + y^3*x^2*u + z^3*u^2*x + u^3*z^2*y > 1", [[2]]),
     ],
 )
 def test_exchanges(text: str, pairs: list[list[int]]) -> None:
