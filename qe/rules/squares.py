@@ -52,7 +52,7 @@ def _by_others(poly: Poly, sign: int, body: Formula, context: BlockContext, orth
     denied = [a for a in conjuncts(body) if isinstance(a, Atom) and a.poly == poly and sign not in a.relation.signs]
     atoms = (a for a in (*conjuncts(body), *context.known) if isinstance(a, Atom) and a.poly != poly)
     others = [a for a in atoms if a.poly.total_degree > 1 or a.poly.term_count() > 1]
-    conditions = [a.poly * s for a in others for s in (1, -1) if a.relation.signs <= {0, s}]
+    conditions = [a.poly * s for a in others for s in (1, -1) if s in a.relation.signs <= {0, s}]
     if not denied or not 0 < len(conditions) <= MOST_CONDITIONS or len(poly.variables) <= FEWEST_VARIABLES:
         return None
     proof = sum_of_squares(poly * sign, orthant, tuple(conditions))

@@ -165,3 +165,18 @@ def test_a_claim_without_a_proof_by_squares_is_refused(monkeypatch: pytest.Monke
     )
     found = qe.eliminate(f"all x, y, z, w. {BALL} -> x*y*z + w <= 1/2", check=True, timeout=20, process=False)
     assert found.guarantee is not qe.Guarantee.CHECKED or found.truth is False
+
+
+def test_no_squares_are_looked_for_under_an_equation(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Circles of which one is denied took 20 s instead of 5 (hokkaido2007-Bun-2): a semidefinite program each."""
+    asked, search = list[tuple[Poly, ...]](), sum_of_squares
+
+    def watched(poly: Poly, orthant: frozenset[int] = frozenset(), under: tuple[Poly, ...] = ()) -> Positive | None:
+        asked.append(under)
+        return search(poly, orthant, under)
+
+    monkeypatch.setattr(gram, "sum_of_squares", watched)
+    body = read(f"{BALL} and x*y*z + w < -2 and x^3 + y*z^2 = w^2 + 1")
+    known_signs(("x", "y", "z", "w"), body, BlockContext(Budget(), frozenset(StepKind)))
+    assert any(asked), "the ball is a condition"
+    assert not any(-p in under for under in asked for p in under)
