@@ -13,7 +13,7 @@ from dataclasses import dataclass, field
 from enum import Enum
 from fractions import Fraction
 from pathlib import Path as FilePath
-from typing import TYPE_CHECKING, Any, Generic, TypeVar
+from typing import TYPE_CHECKING, Any, Protocol, TypeVar
 
 from bezier.motion.motion import Quality
 from bezier.obstacles.survey import Finding
@@ -180,6 +180,16 @@ class Plan:
         return "mm²"
 
     @property
+    def files(self) -> dict[str, str]:
+        """Its further data files, by name."""
+        return {}
+
+    @property
+    def hatted_names(self) -> bool:
+        """Whether the paper writes its points with hats."""
+        return False
+
+    @property
     def not_certified(self) -> tuple[str, ...]:
         """The entries of the summary that no certificate covers and ``bezier check`` cannot find again."""
         result = ("seconds", "attempts") if len(self.attempts) > 1 else ("seconds",)
@@ -284,36 +294,40 @@ class Story:
     """The time that it gives."""
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
-class Method(Generic[P]):
-    """A planning method."""
+class Method(Protocol[P]):
+    """A planning method: a module with these functions."""
 
-    begin: Callable[[Problem, Clock], Begun]
-    """The path."""
-    finish: Callable[[Begun, Clock], P]
-    """The plan, from there on."""
-    reason: Callable[[P], str]
-    """Why there is no path, in one sentence."""
-    json_entries: Callable[[P], dict[str, Any]]
-    """Its further entries in the summary as JSON."""
-    draw: Callable[[P, FilePath], Drawing]
-    """Writes the pictures into a folder."""
-    story: Callable[[P, Drawing | None], Story]
-    """What its page says beyond what every page says, with the drawing if there is one."""
-    restore: Callable[[Problem, Certificate, Stated], tuple[P, tuple[str, ...]]]
-    """The plan that the certificates in a folder prove, without any search, before obstacles and quality, with the
-    certificate that the folder has to have, and a line about each thing that was checked; ``CertificateRejected`` where
-    they are not about the problem."""
-    summary_lines: Callable[[P], list[str]] = lambda plan: []
-    """Its lines in the summary for people."""
-    files: Callable[[P], dict[str, str]] = lambda plan: {}
-    """Its further data files, by name."""
-    questions: Callable[[Problem], Mapping[str, Formula]] = lambda problem: {}
-    """What it may ask the engine about a problem, by the names that its plan has for the answers in
-    ``eliminations``."""
-    hatted_names: bool = False
-    """Whether the paper writes its points with hats."""
+    def begin(self, problem: Problem, clock: Clock) -> Begun:
+        """The path."""
 
-    def make(self, problem: Problem, clock: Clock) -> P:
-        """The plan."""
-        return self.finish(self.begin(problem, clock), clock)
+    def finish(self, given: Begun, clock: Clock) -> P:
+        """The plan, from there on."""
+
+    def questions(self, problem: Problem) -> Mapping[str, Formula]:
+        """What it may ask the engine about a problem, by the names that its plan has for the answers in
+        ``eliminations``."""
+
+    def reason(self, plan: P) -> str:
+        """Why there is no path, in one sentence."""
+
+    def summary_lines(self, plan: P) -> list[str]:
+        """Its lines in the summary for people."""
+
+    def json_entries(self, plan: P) -> dict[str, Any]:
+        """Its further entries in the summary as JSON."""
+
+    def draw(self, plan: P, folder: FilePath) -> Drawing:
+        """Writes the pictures into a folder."""
+
+    def story(self, plan: P, drawing: Drawing | None) -> Story:
+        """What its page says beyond what every page says, with the drawing if there is one."""
+
+    def restore(self, problem: Problem, certificate: Certificate, stated: Stated) -> tuple[P, tuple[str, ...]]:
+        """The plan that the certificates in a folder prove, without any search, before obstacles and quality, with the
+        certificate that the folder has to have, and a line about each thing that was checked; ``CertificateRejected``
+        where they are not about the problem."""
+
+
+def make(method: Method[P], problem: Problem, clock: Clock) -> P:
+    """The plan of a method."""
+    return method.finish(method.begin(problem, clock), clock)

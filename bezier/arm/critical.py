@@ -96,12 +96,12 @@ class AlongCurve:
     # --- what may vanish ---------------------------------------------------------------------
     @cached_property
     def regular(self) -> Reduction:
-        """A reduction whose equation has its full degree for almost all s."""
+        """A reduction whose equation has its full degree for almost all s; a length's is not zero."""
         for k in range(len(TURNS)):
             result = self.reduction(k)
-            if result.degree is None or len(result.coefficients) > result.degree:
+            if len(result.coefficients) > (result.degree or 0):
                 return result
-        raise Unable(f"along the curve the equation of {self.arm.name} has a solution at every angle that was tried")
+        raise Unable(f"along the curve every value of a joint that was tried solves the equation of {self.arm.name}")
 
     def polynomials(self) -> Iterator[tuple[Reason, Poly]]:
         """Polynomials in w and s whose zeros contain all places where the number of solutions may change."""

@@ -17,7 +17,7 @@ from bezier.obstacles.obstacle import Obstacle
 from bezier.obstacles.reader import read_obstacles
 from bezier.planner import derivations
 from bezier.planner.table import method_of
-from bezier.plans import Clock, Plan
+from bezier.plans import Clock, Plan, make
 from bezier.problem import problem_of
 from qe.errors import InputError, Unable
 from qe.processes.channel import Channel
@@ -73,7 +73,7 @@ def _read(source: FilePath, clock: Clock) -> tuple[Curves, Sequence[Obstacle], M
         table.only(("curve", "obstacle"))
         return curves_of(table, least=1), read_obstacles(table), {}
     problem = problem_of(table)
-    plan: Plan = method_of(problem.method).make(problem, clock)
+    plan: Plan = make(method_of(problem.method), problem, clock)
     if plan.path is None:
         raise Unable(f"{source}: no path to examine: {method_of(problem.method).reason(plan)}")
     return plan.path.curves, problem.obstacles, plan.eliminations

@@ -24,7 +24,7 @@ from bezier.methods.quadratic.plan import QuadraticPlan
 from bezier.motion.motion import Quality, quality_of
 from bezier.planner import avoid, derivations
 from bezier.planner.table import method_of
-from bezier.plans import Clock, Derived, Plan, derivation_page
+from bezier.plans import Clock, Derived, Plan, derivation_page, make
 from bezier.problem import PlanMethod, Problem
 from qe.errors import BudgetExceeded, InputError, Unable
 from qe.formula.syntax import Formula
@@ -229,7 +229,7 @@ def for_method(problem: Problem, method: PlanMethod) -> Problem:
 
 def _side(problem: Problem, method: PlanMethod, clock: Clock) -> Side:
     watch = Clock(limit=clock.remaining(), listener=clock.listener, note=clock.note)
-    made: Plan = method_of(method).make(for_method(problem, method), watch)
+    made: Plan = make(method_of(method), for_method(problem, method), watch)
     plan = avoid.examined(made)
     with watch.step("length and curvature"):
         quality = None if plan.path is None else quality_of(plan.path, None, REL)

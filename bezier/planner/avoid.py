@@ -18,7 +18,7 @@ from bezier.obstacles import survey
 from bezier.obstacles.clearance import Clear, ClearanceArgument
 from bezier.planner.derivations import listed
 from bezier.planner.table import method_for
-from bezier.plans import Attempt, Clock, Outcome, Plan
+from bezier.plans import Attempt, Clock, Outcome, Plan, make
 from bezier.problem import INNER, PlanMethod, Problem, ends_inside, problem_of, to_json
 from qe.errors import BudgetExceeded, CertificateRejected, InputError, Unable
 
@@ -60,7 +60,7 @@ def avoiding(problem: Problem, clock: Clock) -> Plan:
 
 def _attempted(what: str, problem: Problem, clock: Clock) -> Plan:
     """The plan of one problem, proved clear of the obstacles or not."""
-    plan: Plan = method_for(problem).make(problem, clock)
+    plan: Plan = make(method_for(problem), problem, clock)
     with clock.step(f"clearance, {what}"):
         plan = examined(plan)
     clock.learn(what, _detail(plan))

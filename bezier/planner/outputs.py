@@ -212,8 +212,7 @@ def path_csv(path: Path) -> str:
 def data_texts(plan: Plan) -> dict[str, str]:
     """The files that carry exact data, by name."""
     problem = json.dumps(to_json(plan.problem), indent=1, ensure_ascii=False) + "\n"
-    texts = {"certificate.json": plan.certificate.to_json(), PROBLEM: problem}
-    texts |= method_for(plan.problem).files(plan)
+    texts = {"certificate.json": plan.certificate.to_json(), PROBLEM: problem, **plan.files}
     if plan.path is not None:
         texts["path.json"] = path_text(plan, plan.path)
         texts["path.csv"] = path_csv(plan.path)

@@ -14,7 +14,7 @@ from bezier.planner.arm import check_arm, with_joints
 from bezier.planner.avoid import avoiding
 from bezier.planner.derivations import with_derivations
 from bezier.planner.table import method_of
-from bezier.plans import Begun, Clock, Outcome, Plan, RadiusRule
+from bezier.plans import Begun, Clock, Outcome, Plan, RadiusRule, make
 from bezier.problem import Problem, ends_inside
 from qe.errors import BudgetExceeded, Unable
 from qe.proof.certificate import Certificate
@@ -33,7 +33,7 @@ def make_plan(problem: Problem, clock: Clock | None = None, *, proofs: bool = Fa
     problem = check_arm(problem)
     watch = clock or Clock()
     with _telling(watch):
-        plan: Plan = avoiding(problem, watch) if problem.obstacles else method_of(problem.method).make(problem, watch)
+        plan: Plan = avoiding(problem, watch) if problem.obstacles else make(method_of(problem.method), problem, watch)
         return _completed(plan, watch, proofs)
 
 

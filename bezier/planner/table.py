@@ -12,9 +12,9 @@ from qe.extras import wanted
 def method_for(problem: Problem) -> Method[Any]:
     """The method of a problem: the one that it asks for, unless its start or goal lies in an obstacle."""
     if ends_inside(problem):
-        from bezier.methods.refuted.method import REFUTED
+        from bezier.methods.refuted import method as refuted
 
-        return REFUTED
+        return refuted
     return method_of(problem.method)
 
 
@@ -23,14 +23,14 @@ def method_of(choice: PlanMethod) -> Method[Any]:
     with wanted():
         match choice:
             case PlanMethod.QUADRATIC:
-                from bezier.methods.quadratic.method import QUADRATIC
+                from bezier.methods.quadratic import method as quadratic
 
-                return QUADRATIC
+                return quadratic
             case PlanMethod.CUBIC:
-                from bezier.methods.cubic.method import CUBIC
+                from bezier.methods.cubic import method as cubic
 
-                return CUBIC
+                return cubic
             case PlanMethod.SINGLE:
-                from bezier.methods.single.method import SINGLE
+                from bezier.methods.single import method as single
 
-                return SINGLE
+                return single

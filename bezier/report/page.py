@@ -214,7 +214,7 @@ PAPER = (
 def render(plan: Plan, method: Method[Any], drawing: Drawing | None) -> str:
     """The page of a plan by this method. Without ``drawing`` there are no pictures."""
     page = html.document(page_of(plan, method, drawing))
-    return page if method.hatted_names else mathml.without_hats(page)
+    return page if plan.hatted_names else mathml.without_hats(page)
 
 
 def page_of(plan: Plan, method: Method[Any], drawing: Drawing | None) -> Page:

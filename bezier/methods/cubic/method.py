@@ -15,7 +15,7 @@ from bezier.methods.control.system import System
 from bezier.methods.control.terms import named_multipliers
 from bezier.methods.cubic import formula as cubic
 from bezier.paths.path import Path, Slowest, slowest_of
-from bezier.plans import Begun, Clock, Method, Stated, Story
+from bezier.plans import Begun, Clock, Stated, Story
 from bezier.problem import Problem
 from bezier.report import html, mathml, parts
 from bezier.report.first import region_box
@@ -275,16 +275,3 @@ def restore(problem: Problem, certificate: Certificate, stated: Stated) -> tuple
     if problem.join_speed and plan.path is not None:
         lines.append(f"the conditions for a speed of at least {problem.join_speed} at both joins hold")
     return plan, tuple(lines)
-
-
-CUBIC: Method[CubicPlan] = Method(
-    begin=begin,
-    finish=finish,
-    reason=reason,
-    summary_lines=summary_lines,
-    json_entries=json_entries,
-    draw=draw,
-    story=story,
-    restore=restore,
-    questions=questions,
-)

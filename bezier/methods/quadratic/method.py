@@ -11,9 +11,12 @@ from markupsafe import Markup
 from bezier.curves.containment import Leaves
 from bezier.curves.scalar import decimal_text, exact_text, with_decimal
 from bezier.methods.quadratic import formula as quadratic
-from bezier.methods.quadratic import plan as quadratic_plan
 from bezier.methods.quadratic.plan import FORMULA, QuadraticPlan, above_label
-from bezier.plans import Method, Story
+from bezier.methods.quadratic.plan import begin as begin
+from bezier.methods.quadratic.plan import finish as finish
+from bezier.methods.quadratic.plan import questions as questions
+from bezier.methods.quadratic.plan import restore as restore
+from bezier.plans import Story
 from bezier.report import html, mathml, parts
 from bezier.report.first import region_box
 from bezier.report.html import Section, Text, toned
@@ -238,11 +241,6 @@ def json_entries(plan: QuadraticPlan) -> dict[str, Any]:
     return data
 
 
-def files(plan: QuadraticPlan) -> dict[str, str]:
-    """The region of Q1."""
-    return {"region.json": plan.region.to_json()}
-
-
 def draw(plan: QuadraticPlan, folder: FilePath) -> Drawing:
     """The region of Q1, the path, and the region with z >= 0 where that makes a difference."""
     from bezier.pictures import plot
@@ -262,18 +260,3 @@ def draw(plan: QuadraticPlan, folder: FilePath) -> Drawing:
     plot.save_region(picture, folder / "region.png", "Where Q\u0302₁ may be: the region of formula (8)")
     plot.save_path(picture, folder / "path.png")
     return Drawing(picture, ("region.png", "path.png"), plot.views(picture))
-
-
-QUADRATIC: Method[QuadraticPlan] = Method(
-    begin=quadratic_plan.begin,
-    finish=quadratic_plan.finish,
-    reason=reason,
-    summary_lines=summary_lines,
-    json_entries=json_entries,
-    files=files,
-    draw=draw,
-    hatted_names=True,
-    story=story,
-    restore=quadratic_plan.restore,
-    questions=quadratic_plan.questions,
-)

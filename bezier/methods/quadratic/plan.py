@@ -67,6 +67,14 @@ class QuadraticPlan(optimal_path.SystemPlan):
     balls: quadratic.ThreeBalls
     gap: Gap
 
+    @property
+    def files(self) -> dict[str, str]:
+        return {"region.json": self.region.to_json()}
+
+    @property
+    def hatted_names(self) -> bool:
+        return True
+
 
 def begin(problem: Problem, clock: Clock) -> Begun:
     """The path of formula (8)."""

@@ -8,9 +8,10 @@ from typing import TYPE_CHECKING, Any
 
 import qe
 from bezier.obstacles.obstacle import PointInside
-from bezier.plans import Begun, Clock, Method, Outcome, Plan, Stated, Story
+from bezier.plans import Begun, Clock, Outcome, Plan, Stated, Story
 from bezier.problem import Problem, ends_inside
 from bezier.report import html, parts
+from qe.formula.syntax import Formula
 from qe.proof.certificate import Certificate
 
 if TYPE_CHECKING:
@@ -54,9 +55,19 @@ def _plan(problem: Problem) -> RefutedPlan:
     )
 
 
+def questions(problem: Problem) -> dict[str, Formula]:
+    """None."""
+    return {}
+
+
 def reason(plan: RefutedPlan) -> str:
     """Which end lies in which obstacle, and where."""
     return "; ".join(item.in_words() for item in plan.inside)
+
+
+def summary_lines(plan: RefutedPlan) -> list[str]:
+    """None beyond the reason."""
+    return []
 
 
 def json_entries(plan: RefutedPlan) -> dict[str, Any]:
@@ -93,14 +104,3 @@ def restore(problem: Problem, certificate: Certificate, stated: Stated) -> tuple
     """The plan, which follows from the problem alone: so do the certificates that the folder has to have."""
     plan = _plan(problem)
     return plan, tuple(item.in_words() for item in plan.inside)
-
-
-REFUTED: Method[RefutedPlan] = Method(
-    begin=begin,
-    finish=finish,
-    reason=reason,
-    json_entries=json_entries,
-    draw=draw,
-    story=story,
-    restore=restore,
-)

@@ -11,12 +11,14 @@ from markupsafe import Markup
 from bezier.curves.containment import Leaves
 from bezier.curves.scalar import brief, decimal_text, described
 from bezier.input.task import Axis, Task
-from bezier.methods.single import plan as single_plan
 from bezier.methods.single import restore as single_restore
 from bezier.methods.single.closed import ProvedCurve
 from bezier.methods.single.plan import CLOSED, NAME, SUMS, SinglePlan, above_label, lowest_label, of_axis
+from bezier.methods.single.plan import begin as begin
+from bezier.methods.single.plan import finish as finish
+from bezier.methods.single.plan import questions as questions
 from bezier.methods.single.program import TIE_BREAK, Dip, lower_of
-from bezier.plans import Method, Stated, Story
+from bezier.plans import Stated, Story
 from bezier.problem import Problem
 from bezier.report import html, mathml, parts
 from bezier.report.html import Section, Text
@@ -292,16 +294,3 @@ def restore(problem: Problem, certificate: Certificate, stated: Stated) -> tuple
     if plan.path is not None:
         lines.append("the curve satisfies (4) and keeps its heights for all t from t_a to t_b")
     return plan, tuple(lines)
-
-
-SINGLE: Method[SinglePlan] = Method(
-    begin=single_plan.begin,
-    finish=single_plan.finish,
-    reason=reason,
-    summary_lines=summary_lines,
-    json_entries=json_entries,
-    draw=draw,
-    story=story,
-    restore=restore,
-    questions=single_plan.questions,
-)

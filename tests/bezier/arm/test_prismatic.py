@@ -110,6 +110,12 @@ def test_two_slides_along_one_direction() -> None:
         solve(arm_of("PPR", ("", "", ""), "a = 3"), (1, 2, 3))
 
 
+def test_a_path_on_a_circle_that_two_slides_leave_is_refused() -> None:
+    """Both slide along the axis of the joint that turns: every point that can be reached is one of infinitely many."""
+    with pytest.raises(Unable, match="along the curve every value of a joint"):
+        joint_path(arm_of("PRP", ("", "", ""), "a = 100"), {"c": Bezier.of([(100, 0, 0), (100, 0, 50)])})
+
+
 @each("RRP", "PPR")
 def test_paths(kinds: str) -> None:
     """The number of solutions along a line, its branches, and their certificates."""

@@ -9,9 +9,9 @@ import pytest
 
 import qe
 from bezier.curves.scalar import dot
+from bezier.methods.single import method as single
 from bezier.methods.single.closed import NoCurve, close
 from bezier.methods.single.cuts import Model
-from bezier.methods.single.method import SINGLE
 from bezier.methods.single.plan import CLOSED, PIECEWISE_DEGREE, _least_sums, task_of
 from bezier.methods.single.program import choose, curve, lower_of, objective, rows_of
 from bezier.methods.single.restore import certified_curve
@@ -45,7 +45,7 @@ def test_everything_is_certified_and_found_again(plans, name):
     plan = plans[name]
     assert plan.certified and all(verdict.accepted for verdict in plan.checks.values())
     stored = Certificate.from_json(plan.certificate.to_json())
-    again, _ = SINGLE.restore(plan.problem, stored, stated_by(plan))
+    again, _ = single.restore(plan.problem, stored, stated_by(plan))
     assert again.outcome is plan.outcome and again.certificate == plan.certificate
     assert again.printed == plan.printed and again.chosen == plan.chosen and again.above == plan.above
     if plan.path is not None:
@@ -64,7 +64,7 @@ def test_the_printed_curve_that_leaves(plans):
     plan = plans["single_leaves"]
     assert [proof.condition.name for proof in plan.printed.leaving] == ["ball"] and not plan.printed.dips
     assert plan.objective == plan.closed.bound == F(2027, 160) and plan.gap == 0
-    words = "\n".join(SINGLE.summary_lines(plan))
+    words = "\n".join(single.summary_lines(plan))
     assert "LEAVES the ball" in words and "least possible sum, 12.66875" in words
 
 
@@ -73,7 +73,7 @@ def test_the_printed_curve_that_dips(plans):
     assert isinstance(plan.closed, NoCurve) and plan.outcome is Outcome.INFEASIBLE
     (dip,) = plan.printed.dips
     assert F(3, 5) < dip.t < F(4, 5) and dip.value < F(5, 2)
-    assert "contradict each other" in SINGLE.reason(plan)
+    assert "contradict each other" in single.reason(plan)
 
 
 @pytest.mark.parametrize("name", EXAMPLES)
@@ -171,14 +171,14 @@ def test_a_missing_certificate_is_noticed(plans, label):
     left = [(name, certificate) for name, certificate in members(plan) if name != label]
     assert len(left) == len(members(plan)) - 1
     with pytest.raises(CertificateRejected, match="no derivation by multipliers"):
-        SINGLE.restore(plan.problem, Certificate.bundle(left), stated_by(plan))
+        single.restore(plan.problem, Certificate.bundle(left), stated_by(plan))
 
 
 @each("single", "single_leaves")
 def test_certificates_of_another_problem_are_rejected(name, plans):
     other = plans["single_leaves" if name == "single" else "single"]
     with pytest.raises(CertificateRejected):
-        SINGLE.restore(plans[name].problem, other.certificate, stated_by(plans[name]))
+        single.restore(plans[name].problem, other.certificate, stated_by(plans[name]))
 
 
 @pytest.mark.parametrize("label", ["problem (4) for y", CLOSED])
@@ -193,7 +193,7 @@ def test_a_linear_program_of_another_problem_is_rejected(plans, label):
     }
     swapped = [(name, other[label] if name == label else member) for name, member in members(plan)]
     with pytest.raises(CertificateRejected, match="not the one of this problem"):
-        SINGLE.restore(plan.problem, Certificate.bundle(swapped), stated_by(plan))
+        single.restore(plan.problem, Certificate.bundle(swapped), stated_by(plan))
 
 
 def with_points(plan, points):
@@ -243,7 +243,7 @@ def test_a_cut_that_does_not_follow_is_rejected(cut, plans):
     stated = stated_by(plan)
     with pytest.raises(CertificateRejected, match=r"summary.json: cuts\[0\]"):
         altered = Stated({**stated.summary, "cuts": [cut]}, stated.path)
-        SINGLE.restore(plan.problem, plan.certificate, altered)
+        single.restore(plan.problem, plan.certificate, altered)
 
 
 def test_the_files(plans, tmp_path):
