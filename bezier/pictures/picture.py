@@ -74,6 +74,8 @@ class PathPicture:
     hatted_names: bool = True
     """Whether their names get hats."""
     obstacles: tuple[ObstaclePicture, ...] = ()
+    centre: Array = field(default_factory=lambda: np.zeros(3))
+    has_rim: bool = True
 
 
 @dataclass(frozen=True, slots=True)

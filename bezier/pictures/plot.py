@@ -301,8 +301,8 @@ def _region_view(axis: Any, region: RegionPicture, title: str, i: int, j: int) -
 
 def path_view(axis: Any, picture: PathPicture, title: str, i: int, j: int) -> None:
     """The path, or the given points alone, along one axis, in the outline of the workspace."""
-    angle = np.linspace(0, np.pi if picture.has_floor and j == 2 else 2 * np.pi, 181)
-    rim = picture.radius * np.stack([np.cos(angle), np.sin(angle)], axis=1)
+    angle = np.linspace(0, np.pi if picture.has_floor and j == 2 else 2 * np.pi, 181 if picture.has_rim else 0)
+    rim = picture.centre[[i, j]] + picture.radius * np.stack([np.cos(angle), np.sin(angle)], axis=1)
     axis.plot(*rim.T, color=PALE, linewidth=1)
     if picture.has_floor and j == 2:
         axis.plot([-picture.radius, picture.radius], [0, 0], color=FLOOR, linewidth=1.5)
@@ -317,7 +317,7 @@ def path_view(axis: Any, picture: PathPicture, title: str, i: int, j: int) -> No
         axis.plot(curve.polygon[:, i], curve.polygon[:, j], "--o", linewidth=0.8, markersize=3, alpha=0.8, **style)
         axis.plot(curve.points[:, i], curve.points[:, j], linewidth=2.2, **style)
     _flat(axis, title, i, j)
-    if not picture.curves:
+    if picture.marks and not picture.curves:
         axis.plot(*np.array(list(picture.marks.values()))[:, [i, j]].T, "o", color=INK, markersize=3)
     drawn = [part[:, [i, j]] for curve in picture.curves for part in (curve.points, _along(curve.polygon))]
     place(axis, _grouped(picture, i, j), np.concatenate([rim, *drawn]))

@@ -3,22 +3,19 @@ and where there is no chain, what excludes it and what repairs it."""
 
 from __future__ import annotations
 
-from typing import Any
-
 import numpy as np
 
 from bezier.chains.chain import Chain
 from bezier.chains.region import PointRegion
 from bezier.curves.curve import Bezier
-from bezier.pictures.mesh import hull, sampled
-from bezier.pictures.picture import COLOURS, INK, PALE, Chart
-from bezier.pictures.plot import AXES, VIEWS, framed, new_figure, place, svg_text
+from bezier.pictures.mesh import Array, hull, sampled
+from bezier.pictures.picture import INK, PALE, Chart, CurvePicture, PathPicture, numbers
+from bezier.pictures.plot import VIEWS, new_figure, path_view, svg_text
 from bezier.report import html
 from bezier.report.html import Card, Page, Section
 from bezier.report.parts import decimal_point
 
 BAD = "#c0392b"
-_CURVES = tuple(COLOURS.values())
 
 
 def page(
@@ -44,52 +41,36 @@ def page(
 
 def pictures(chain: Chain, curves: tuple[Bezier, ...], shown: PointRegion | None = None) -> list[Chart]:
     """The plane, or the three views of space; with the region where one is ``shown``."""
+    given, reach = numbers(chain.points), float(chain.radius_squared or 0) ** 0.5
+    drawn = (CurvePicture("PQR"[k % 3], sampled(c.points, 61), numbers(c.points)) for k, c in enumerate(curves))
+    picture = PathPicture(
+        radius=reach or float(np.ptp(given, axis=0).max()) / 2,
+        has_floor=False,
+        curves=tuple(drawn),
+        marks=dict(zip(chain.point_names, given, strict=True)) if len(given) <= 16 else {},
+        centre=numbers([chain.centre or chain.points[0]])[0],
+        has_rim=reach > 0,
+    )
     where = "" if shown is None else f"; shaded: where {shown.name} may be"
     if chain.dimension == 2:
-        return [(_view(chain, curves, 0, 1, shown), f"the chain, its control polygons and its conditions{where}")]
-    return [(_view(chain, curves, i, j, shown), f"the chain, {title}{where}") for title, i, j in VIEWS]
+        views, words = (("the chain", 0, 1),), "{}, its control polygons and its conditions"
+    else:
+        views, words = VIEWS, "the chain, {}"
+    return [(_view(chain, picture, given, view, shown), words.format(view[0]) + where) for view in views]
 
 
-def _view(chain: Chain, curves: tuple[Bezier, ...], i: int, j: int, shown: PointRegion | None) -> str:
+def _view(
+    chain: Chain, picture: PathPicture, given: Array, view: tuple[str, int, int], shown: PointRegion | None
+) -> str:
+    title, i, j = view
     figure = new_figure(7.2, 6.4)
-    axis = figure.add_axes((0.1, 0.08, 0.87, 0.88))
-    given = np.array([[float(c) for c in p] for p in chain.points])
-    polygons = [np.array([[float(c) for c in p] for p in curve.points]) for curve in curves]
-    everything = np.concatenate([given, *polygons])[:, (i, j)]
-    _conditions(axis, chain, i, j)
-    if shown is not None:
-        corners = np.array([[float(c) for c in p] for p in shown.inner])
-        axis.fill(*hull(corners[:, (i, j)]).T, color=PALE, alpha=0.3, linewidth=0)
-    drawn = [everything]
-    for k, (curve, polygon) in enumerate(zip(curves, polygons, strict=True)):
-        colour = _CURVES[k % len(_CURVES)]
-        points = sampled(curve.points, 61)[:, (i, j)]
-        axis.plot(*polygon[:, (i, j)].T, "--o", color=colour, linewidth=0.8, markersize=3, alpha=0.7)
-        axis.plot(*points.T, color=colour, linewidth=2.2)
-        drawn.append(points)
-    axis.plot(*given[:, (i, j)].T, "o" if curves else "o:", color=INK, markersize=6, linewidth=0.8, zorder=5)
-    if chain.radius_squared is not None:
-        centre = np.array([float(chain.centre[i]), float(chain.centre[j])])
-        radius = float(chain.radius_squared) ** 0.5
-        everything = np.concatenate([everything, [centre - radius, centre + radius]])
-    low, high = everything.min(axis=0), everything.max(axis=0)
-    pad = 0.05 * float((high - low).max()) + 1e-9
-    axis.set_xlim(low[0] - pad, high[0] + pad)
-    axis.set_ylim(low[1] - pad, high[1] + pad)
-    axis.set_aspect("equal", adjustable="box")
-    framed(axis, f"{AXES[i]} (mm)", f"{AXES[j]} (mm)")
-    names = zip(chain.point_names, given[:, (i, j)], strict=True)
-    place(axis, [(name, point) for name, point in names if len(given) <= 16], np.concatenate(drawn))
-    return svg_text(figure)
-
-
-def _conditions(axis: Any, chain: Chain, i: int, j: int) -> None:
-    """The ball's outline, and the lines of half-spaces in the plane."""
-    if chain.radius_squared is not None:
-        turn, radius = np.linspace(0, 2 * np.pi, 241), float(chain.radius_squared) ** 0.5
-        centre = float(chain.centre[i]), float(chain.centre[j])
-        axis.plot(centre[0] + radius * np.cos(turn), centre[1] + radius * np.sin(turn), color=PALE, linewidth=1.2)
+    axis = figure.add_axes((0.1, 0.09, 0.87, 0.85))
     for normal, offset in chain.half_spaces if chain.dimension == 2 else ():
-        arrow = np.array([float(c) for c in normal])
+        arrow = numbers([normal])[0]
         foot = arrow * float(offset) / (arrow @ arrow)
         axis.axline(tuple(foot), tuple(foot + np.array([-arrow[1], arrow[0]])), color=BAD, linewidth=1, linestyle="--")
+    if shown is not None:
+        axis.fill(*hull(numbers(shown.inner)[:, (i, j)]).T, color=PALE, alpha=0.3, linewidth=0)
+    axis.plot(*given[:, (i, j)].T, "o" if picture.curves else "o:", color=INK, markersize=6, linewidth=0.8, zorder=5)
+    path_view(axis, picture, title, i, j)
+    return svg_text(figure)
