@@ -164,9 +164,8 @@ def _write(comparison: Comparison, folder: FilePath, target: FilePath, *, plots:
         start = perf_counter()
         from bezier.compare import pictures as plot_compare
 
-        regions = plot_compare.regions_of(comparison)
-        names += plot_compare.save(comparison, folder, regions)
-        drawings, first = plot_compare.charts(comparison, regions), plot_compare.first(comparison)
+        names += plot_compare.FILES
+        drawings, first = plot_compare.charts(comparison, folder), plot_compare.first(comparison)
         comparison = replace(comparison, seconds={**comparison.seconds, DRAWING[0]: perf_counter() - start})
     files_of = comparison.derivation_pages
     pages = {

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from functools import partial
 from pathlib import Path as FilePath
 from typing import Any
 
@@ -14,6 +15,7 @@ from bezier.compare.planar import plane_coordinates
 from bezier.motion.motion import in_time
 from bezier.motion.track import Track
 from bezier.pictures import plot, scene
+from bezier.pictures.charts import saved
 from bezier.pictures.mesh import Array
 from bezier.pictures.picture import INK, Chart, PathPicture, numbers, path_picture
 from bezier.pictures.plot import VIEWS, framed, letter, new_figure, path_view, svg_text
@@ -30,29 +32,19 @@ LABELS = {
 }
 TONES = {PlanMethod.QUADRATIC: "p", PlanMethod.CUBIC: "q"}
 NAMES = ("P0", "Q0", "R0", "goal")
+FILES = ("regions.png", "paths.png")
 
 
-def save(comparison: Comparison, folder: FilePath, regions: Any) -> list[str]:
-    """``regions.png`` (of the figure that ``regions_of`` makes) and ``paths.png``."""
-    paths = new_figure(11, 8.4)
-    for row, method in enumerate(METHODS):
-        for column in range(2):
-            _view(paths.add_axes((0.08 + 0.5 * column, 0.56 - 0.5 * row, 0.4, 0.38)), comparison, method, column)
-    for name, figure in (("regions.png", regions), ("paths.png", paths)):
-        figure.savefig(folder / name, dpi=120, pil_kwargs={"compress_level": 4})
-    return ["regions.png", "paths.png"]
-
-
-def charts(comparison: Comparison, regions: Any) -> dict[str, tuple[Chart, ...]]:
-    """The same for the page."""
-    paths = []
-    for method in METHODS:
-        for column, (title, _i, _j) in enumerate(VIEWS[:2]):
-            figure = new_figure(5.6, 4.2)
-            _view(figure.add_axes((0.12, 0.14, 0.85, 0.77)), comparison, method, column)
-            paths.append((svg_text(figure), f"{TITLES[method]}: {title} of the path and its control polygons"))
-    words = "where Q1 may be, in the plane of O, Q0 and R0"
-    return {"regions": ((svg_text(regions), words),), "paths": tuple(paths)}
+def charts(comparison: Comparison, folder: FilePath) -> dict[str, tuple[Chart, ...]]:
+    """``regions.png`` and ``paths.png``, and the same for the page."""
+    regions, words = regions_of(comparison), "where Q1 may be, in the plane of O, Q0 and R0"
+    regions.savefig(folder / FILES[0], dpi=120, pil_kwargs={"compress_level": 4})
+    panels = {
+        f"{TITLES[method]}: {title} of the path and its control polygons": partial(_view, comparison, method, column)
+        for method in METHODS
+        for column, (title, _i, _j) in enumerate(VIEWS[:2])
+    }
+    return {"regions": ((svg_text(regions), words),), "paths": saved(panels, folder / FILES[1], rows=2)}
 
 
 def first(comparison: Comparison) -> Markup:
@@ -72,7 +64,7 @@ def first(comparison: Comparison) -> Markup:
     data["marks"] = data["marks"][: len(given)]
     words = f"the paths of {' and '.join(TITLES[m] for m in shown) or 'neither method'} in the workspace, seen in space"
     legend = [(TITLES[method], f"var(--{TONES[method]})") for method in shown]
-    return scene_box(scene.text(data), words, "paths.png", legend, moving=track is not None)
+    return scene_box(scene.text(data), words, FILES[1], legend, moving=track is not None)
 
 
 def regions_of(comparison: Comparison) -> Any:
@@ -140,7 +132,7 @@ def _picture(comparison: Comparison, method: PlanMethod) -> PathPicture:
     return path_picture(comparison.problem, comparison.sides[method].plan.path, given, region=None, hatted_names=False)
 
 
-def _view(axis: Any, comparison: Comparison, method: PlanMethod, column: int) -> None:
+def _view(comparison: Comparison, method: PlanMethod, column: int, axis: Any) -> None:
     title, i, j = VIEWS[column]
     none = "" if comparison.sides[method].plan.path is not None else ", no path"
     path_view(axis, _picture(comparison, method), f"{TITLES[method]}{none}: {title}", i, j)

@@ -29,11 +29,13 @@ Panels = Mapping[str, Callable[[Any], None]]
 """What draws on axes, by what it shows in words."""
 
 
-def saved(panels: Panels, file: FilePath) -> tuple[Chart, ...]:
-    """The panels side by side in a file, and each alone for the page."""
-    whole, wide, charts = new_figure(6 * len(panels), 4.2), 1 / len(panels), []
+def saved(panels: Panels, file: FilePath, rows: int = 1) -> tuple[Chart, ...]:
+    """The panels side by side in a file, in so many rows, and each alone for the page."""
+    count = len(panels) // rows
+    whole, wide, high, charts = new_figure(6 * count, 4.2 * rows), 1 / count, 1 / rows, []
     for k, (words, draw) in enumerate(panels.items()):
-        draw(whole.add_axes((wide * (k + 0.11), 0.13, wide * 0.85, 0.76)))
+        across, down = k % count, k // count
+        draw(whole.add_axes((wide * (across + 0.11), 1 - high * (down + 0.87), wide * 0.85, high * 0.76)))
         single = new_figure(5.8, 3.6)
         draw(single.add_axes((0.11, 0.15, 0.86, 0.75)))
         charts.append((svg_text(single), words))
