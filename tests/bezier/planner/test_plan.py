@@ -186,7 +186,7 @@ def test_an_engine_that_stops_at_the_limit_says_what_was_known(monkeypatch):
         raise Unable("time limit reached")
 
     plain = problem_of((Fraction(1),) * 3, (Fraction(2),) * 3, 20)
-    monkeypatch.setattr(planning, "method_of", lambda choice: SimpleNamespace(begin=out_of_time))
+    monkeypatch.setattr(planning, "method_of", lambda choice: SimpleNamespace(begin=out_of_time, finish=None))
     with pytest.raises(BudgetExceeded, match="time limit reached; known so far: region: empty"):
         make_plan(plain, Clock(limit=5))
     with pytest.raises(Unable) as found:
