@@ -52,10 +52,9 @@ def pictures(chain: Chain, curves: tuple[Bezier, ...], shown: PointRegion | None
         has_rim=reach > 0,
     )
     where = "" if shown is None else f"; shaded: where {shown.name} may be"
-    if chain.dimension == 2:
-        views, words = (("the chain", 0, 1),), "{}, its control polygons and its conditions"
-    else:
-        views, words = VIEWS, "the chain, {}"
+    plane = chain.dimension == 2
+    views = (("the chain", 0, 1),) if plane else VIEWS
+    words = "{}, its control polygons and its conditions" if plane else "the chain, {}"
     return [(_view(chain, picture, given, view, shown), words.format(view[0]) + where) for view in views]
 
 
