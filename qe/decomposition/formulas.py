@@ -8,15 +8,14 @@ polynomial and its derivatives separate its roots, so this ends.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Sequence
 
 from qe.decomposition.sign_table import Literal, SignTable, free_cells
 from qe.errors import InternalError
 from qe.exact.ring import Poly
 from qe.formula.build import atom, conj, disj, neg
 from qe.formula.normal import nnf
-from qe.formula.syntax import FALSE, TRUE, Atomic, Formula, Relation
-from qe.formula.traverse import map_atoms
+from qe.formula.syntax import FALSE, TRUE, Formula
 from qe.proof.cells import CellTable, FreeCell
 
 WORTH_PRODUCTS = 9
@@ -27,10 +26,12 @@ Refine = Callable[[frozenset[int]], CellTable]
 
 
 class Undistinguished(InternalError):
-    """A true and a false cell differ in no sign that is known on both. ``level``: where their ways part."""
+    """A true and a false cell, at the ends of these ways, differ in no sign that is known on both. ``level``: where
+    the ways part."""
 
     def __init__(self, one: FreeCell, other: FreeCell) -> None:
         super().__init__("a true cell cannot be distinguished from a false one")
+        self.ways = one.path, other.path
         self.level = next(k for k, (a, b) in enumerate(zip(one.path, other.path, strict=False)) if a != b)
 
 
@@ -48,23 +49,6 @@ def construct(table: CellTable, refine: Refine, levels: frozenset[int] = frozens
                 raise InternalError("derivatives do not separate the cells, against Thom's lemma") from pair
             levels |= {pair.level}
         table = refine(levels)
-
-
-def formula_of_open_cells(factors: Factors, cells: list[FreeCell], owners: Mapping[Poly, int]) -> Formula:
-    """A formula without negation, true on the true open cells and false on the false ones.
-
-    ``cells``: all open cells of a decomposition; true and false ones differ in the sign of a factor. The atoms are
-    weak, so that limits of true cells are true; but where a polynomial f with an owner -1 (or 1) vanishes its atoms are
-    those of the side f < 0 (or f > 0), so that the conditions of two sides do not hold there together.
-    """
-
-    def closed(found: Atomic) -> Formula:
-        below = found.relation in (Relation.LT, Relation.LE)
-        strict = owners.get(found.poly) == (1 if below else -1)
-        relation = (Relation.LT if strict else Relation.LE) if below else (Relation.GT if strict else Relation.GE)
-        return atom(found.poly, relation)
-
-    return map_atoms(formula_of_cells(factors, cells, products=False), closed)
 
 
 def formula_of_cells(factors: Factors, cells: list[FreeCell], *, products: bool = True) -> Formula:

@@ -13,8 +13,7 @@ from qe.decomposition.projection import Levels, factor_lists
 from qe.elimination.critical.boundary import critical_hypersurfaces
 from qe.elimination.critical.bounded import has_bounded_fibres
 from qe.elimination.critical.fibres import Fibres, Spared
-from qe.elimination.critical.open_cells import OpenCell, OpenCells
-from qe.elimination.critical.separate import separated
+from qe.elimination.critical.open_cells import OpenCells
 from qe.elimination.critical.system import System, systems
 from qe.elimination.critical.table import Shape, TableBuilder, Truth
 from qe.elimination.critical.walls import FEW, Box, Walls, box_around, walls_in_plane
@@ -29,14 +28,15 @@ from qe.formula.syntax import TRUE, Formula
 from qe.options import Budget
 from qe.proof.cells import CellTable
 
-Refine = Callable[[frozenset[int]], CellTable]
+Refine = Callable[[frozenset[int], frozenset[Poly]], CellTable]
 
 
 @dataclass(frozen=True, slots=True)
 class Tabulated:
     """A truth set as a table over the parameters, all of them free; its matrix is left to the caller.
 
-    ``refine(levels)``: the same set in a table whose factor lists of these levels are closed under differentiation.
+    ``refine(levels, planes)``: the same set in a table with further polynomials, whose factor lists of these levels are
+    closed under differentiation.
     ``unsettled``: the truth set may also hold points where one of these polynomials vanishes and the table says false.
     """
 
@@ -46,29 +46,11 @@ class Tabulated:
 
 
 @dataclass(frozen=True, slots=True)
-class ConvexBody:
-    """A closed convex truth set with interior points: the closure of its true open cells.
-
-    ``boundary``: polynomials whose zeros contain its boundary. ``cells()``: factors of a decomposition for them, by
-    whose signs true and false open cells can be distinguished, and its open cells. ``holds``: membership of rational
-    points. ``cut``: a polynomial positive at a rational point outside and <= 0 on the set, if one is known.
-    ``bounded``: whether the set is. ``tabulate()``: the whole table.
-    """
-
-    boundary: frozenset[Poly]
-    cells: Callable[[], tuple[Levels, list[OpenCell]]]
-    holds: Callable[[tuple[Fraction, ...]], bool]
-    cut: Callable[[tuple[Fraction, ...]], Poly | None]
-    bounded: bool
-    tabulate: Callable[[], Tabulated]
-
-
-@dataclass(frozen=True, slots=True)
 class Disjunct:
     """One disjunct of the body and where it can be satisfied; ``found`` is a truth value when nothing is free."""
 
     body: Formula
-    found: Tabulated | ConvexBody | bool
+    found: Tabulated | bool
     stats: dict[str, object]
 
 
@@ -121,13 +103,13 @@ class Run:
         shape = Shape.CLOSED if self.system.is_closed else Shape.OPEN if self.system.is_open else Shape.ANY
         return self._tabulated(boundary, shape, truth)
 
-    def convex(self) -> ConvexBody | None:
+    def convex(self) -> Tabulated | None:
         """A closed convex truth set, if it has interior points."""
         surfaces = critical_hypersurfaces(self.system, thin_parts=False, budget=self.budget)
         many = self.system.free == 2 and len(surfaces) > FEW
         return self.body(surfaces, self._hint(), box_around(self.system, self.budget) if many else None)
 
-    def body(self, surfaces: frozenset[Poly], hint: tuple[Fraction, ...], box: Box | None = None) -> ConvexBody | None:
+    def body(self, surfaces: frozenset[Poly], hint: tuple[Fraction, ...], box: Box | None = None) -> Tabulated | None:
         """The closed convex truth set with its boundary in the zeros of ``surfaces``, if it has interior points.
 
         ``box``: the smallest one around it in the plane, if it is known.
@@ -152,25 +134,13 @@ class Run:
                 return self.fibres.hold_over(point)
             return self.fibres.hold_at(nearby(point, tuple(boundary), vanishing, centre))
 
-        def explored(polys: frozenset[Poly]) -> tuple[Levels, list[OpenCell]]:
-            cells = OpenCells(self._levels(polys), self.fibres.hold_at, self.budget, centre)
-            cells.explore(origin)
-            return cells.levels, list(cells.cells(origin))
-
-        return ConvexBody(
-            boundary,
-            lambda: separated(boundary, explored),
-            self.fibres.hold_at,
-            self.fibres.cut,
-            found.bounded,
-            lambda: self._tabulated(boundary, Shape.CONVEX, truth),
-        )
+        return self._tabulated(boundary, Shape.CONVEX, truth)
 
     def _explored(self, surfaces: frozenset[Poly], hint: tuple[Fraction, ...], origin: Point) -> Walls:
         cells = OpenCells(self._levels(surfaces), self.fibres.hold_at, self.budget, hint)
         cells.explore(origin)
         boundary = frozenset(cells.walls() | {f for f in surfaces if f.level < self.system.free - 1})
-        return Walls(boundary, tuple(cells.inside), cells.is_bounded(), cells.decided)
+        return Walls(boundary, tuple(cells.inside), cells.decided)
 
     def _hint(self) -> tuple[Fraction, ...]:
         """A point of the truth set, if one is proposed; the origin otherwise."""
@@ -189,8 +159,12 @@ class Run:
         if shape is Shape.CONVEX and size > 2 and not has_bounded_fibres(self.system.without_parameters()):
             shape = Shape.CLOSED  # the theorem of ``Shape.CONVEX`` then has only been proved in the plane
 
-        def attempt(closed: frozenset[int], operator: Operator) -> tuple[CellTable, frozenset[Poly]]:
-            levels = factor_lists(boundary, size, operator, self.budget, closed)
+        def attempt(
+            closed: frozenset[int], planes: frozenset[Poly], operator: Operator
+        ) -> tuple[CellTable, frozenset[Poly]]:
+            levels = factor_lists(
+                boundary.union(f.convert(self.system.ring) for f in planes), size, operator, self.budget, closed
+            )
             known = Shape.CLOSED if shape is Shape.CONVEX and size > 2 and operator.evaluates else shape
             builder = TableBuilder(levels, operator, boundary, known, truth, self.budget)
             root = builder.run(Point(self.system.ring, watch=Watch(self.budget.check, self.budget.spend)))
@@ -199,8 +173,8 @@ class Run:
             table = CellTable(outer.names, ("",) * size, TRUE, operator.proof, factors, root)
             return table, frozenset(builder.unsettled)
 
-        def table(closed: frozenset[int]) -> tuple[CellTable, frozenset[Poly]]:
-            return BROWN_MCCALLUM.applied(lambda operator: attempt(closed, operator))
+        def table(closed: frozenset[int], planes: frozenset[Poly]) -> tuple[CellTable, frozenset[Poly]]:
+            return BROWN_MCCALLUM.applied(lambda operator: attempt(closed, planes, operator))
 
-        first, unsettled = table(frozenset())
-        return Tabulated(first, lambda levels: table(levels)[0], unsettled)
+        first, unsettled = table(frozenset(), frozenset())
+        return Tabulated(first, lambda levels, planes: table(levels, planes)[0], unsettled)

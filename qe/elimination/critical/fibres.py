@@ -6,7 +6,6 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import cached_property
-from math import lcm
 
 from qe.convex.strict import feasible
 from qe.convex.system import is_convex
@@ -17,9 +16,7 @@ from qe.errors import Unable
 from qe.exact.nearby import rational_values
 from qe.exact.parametric_form import ParametricForm, parametric_form
 from qe.exact.quadratic_form import Quadratic, combine, solve_linear
-from qe.exact.ring import Poly
 from qe.exact.sample import Point
-from qe.formula.syntax import Relation
 from qe.options import Budget
 from qe.proof.multipliers import FormRelation
 
@@ -73,23 +70,6 @@ class Fibres:
         forms = [form.at(parameters) for form in self._forms]
         known = self._known(forms)
         return self._convex(forms, parameters) if known is None else known
-
-    def cut(self, parameters: Values) -> Poly | None:
-        """A polynomial in the parameters that is positive at a rational point where the block is false, and <= 0
-        wherever it is true; None if there is no such point, or no polynomial is known.
-
-        A guard does, and so does the minimum over y of a weighted sum of the conditions.
-        """
-        values = (*parameters, *(Fraction(0) for _ in self.system.bound))
-        for guard in self.system.guards:
-            poly = guard.poly if guard.relation in (Relation.LE, Relation.LT) else -guard.poly
-            if guard.relation not in (Relation.EQ, Relation.NE) and poly.evaluate(values) > 0:
-                return poly
-        if self.hold_at(parameters) or self._forms is None:
-            return None
-        over = [form.at(parameters) for form in self._forms]
-        found = next((s for s in self.separations if s.excludes(over)), None)
-        return None if found is None else found.minimum(self._forms)
 
     def hold_over(self, point: Point) -> bool:
         """Whether the block is true over any point, exactly; slow where coordinates are algebraic."""
@@ -165,9 +145,6 @@ class Spared:
         """Whether any point belongs to them."""
         return not any(part.hold_over(point) for part in self.parts)
 
-    def cut(self, parameters: Values) -> Poly | None:
-        """None: no inequality is known that they all satisfy."""
-
 
 @dataclass(frozen=True, slots=True)
 class Separation:
@@ -195,19 +172,3 @@ class Separation:
         total = combine(self.weights, forms)
         lowest = [-sum((v * g for v, g in zip(row, total.gradient, strict=True)), Fraction(0)) for row in self.inverse]
         return bool(total.value(lowest) > 0)
-
-    def minimum(self, forms: Sequence[ParametricForm]) -> Poly:
-        """c - b.H^-1.b / 2 as a polynomial in the parameters, up to a positive factor."""
-        ring = forms[0].constant.ring
-        pairs = list(zip(self.weights, forms, strict=True))
-        scale = lcm(*(w.denominator for w in self.weights), *(v.denominator for row in self.inverse for v in row))
-
-        def total(parts: Sequence[Poly]) -> Poly:
-            return sum((int(w * scale) * f for (w, _), f in zip(pairs, parts, strict=True)), ring.constant(0))
-
-        b = [total([form.gradient[j] for _, form in pairs]) for j in range(len(self.inverse))]
-        square = sum(
-            (int(v * scale) * b[i] * b[j] for i, row in enumerate(self.inverse) for j, v in enumerate(row)),
-            ring.constant(0),
-        )
-        return 2 * scale**2 * total([form.constant for _, form in pairs]) - square

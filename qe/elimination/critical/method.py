@@ -5,33 +5,25 @@ from __future__ import annotations
 import time
 from collections.abc import Sequence
 from dataclasses import dataclass
-from fractions import Fraction
-from itertools import permutations
 
 from qe.convex.facial_reduction import on_flat
-from qe.decomposition.confirm_convex import strangers
-from qe.decomposition.decompose import decompose
-from qe.decomposition.formulas import construct, formula_of_open_cells
-from qe.decomposition.operators.brown_mccallum import BROWN_MCCALLUM
+from qe.decomposition.formulas import Undistinguished, construct, formula_of_cells
 from qe.decomposition.order import brown_order
-from qe.decomposition.projection import factor_lists
+from qe.decomposition.sign_table import free_cells
 from qe.elimination.critical.apart import Piece, taken_apart
-from qe.elimination.critical.block import ConvexBody, Disjunct, eliminate_block
+from qe.elimination.critical.block import Disjunct, Tabulated, eliminate_block
 from qe.elimination.critical.degenerate import thin_universal
-from qe.elimination.critical.open_cells import OpenCell
 from qe.elimination.critical.universal import eliminate_universal
 from qe.elimination.protocol import Context, Outcome
 from qe.errors import Unable
-from qe.exact.nearby import approximation
 from qe.exact.ring import Poly, Ring
-from qe.exact.sample import Point
 from qe.formula.block import Block
 from qe.formula.build import atom, conj, convert, disj, exists, forall
 from qe.formula.normal import nnf
 from qe.formula.syntax import FALSE, TRUE, ForAll, Formula, Relation
 from qe.formula.traverse import conjuncts, polynomials
 from qe.options import Budget, Options, Stage
-from qe.proof.cells import FreeCell
+from qe.proof.cells import CellTable
 from qe.proof.step import Nested, Step
 from qe.simplifier.simplify import simplify
 
@@ -42,8 +34,8 @@ DIRECTIONS = "constant along directions"
 FEW = 2
 """So many parameters a convex truth set may have."""
 
-MOST_CUTS = 4
-"""How often isolated points of a formula read from open cells are cut away before the whole table is made."""
+MOST_PLANES = 6
+"""Planes in later variables that are tried before derivatives, which bring many more cells (measured: ten times)."""
 
 
 class CriticalValues:
@@ -153,11 +145,8 @@ class ConvexUniversal:
         found = eliminate_universal(variables, negated, order, budget=budget)
         if found is None:
             return None
-        assert isinstance(found.found, ConvexBody)
-        answer = _of_open_cells(found.found, order, budget)
-        if answer is None:  # in the plane the table of a convex set settles every cell
-            whole = found.found.tabulate()
-            answer = construct(whole.table, whole.refine)[0]
+        assert isinstance(found.found, Tabulated)
+        answer = _described(found.found)  # in the plane the table of a convex set settles every cell
         return _logged(simplify(answer, watch=budget.check), negated, order, [found], context, start)
 
 
@@ -218,80 +207,39 @@ def _formula(
     found = part.found
     if isinstance(found, bool):
         return TRUE if found else FALSE
-    if isinstance(found, ConvexBody):
-        confirmed = _of_open_cells(found, parameters, budget)
-        if confirmed is not None:
-            return confirmed
-        found = found.tabulate()
     if any(atom(f, Relation.EQ) in conjuncts(part.body) for f in found.unsettled):
         raise Unable("critical-value elimination leaves a hypersurface open")
-    formula, _ = construct(found.table, found.refine)
+    formula = _described(found)
     surfaces = [exists(variables, conj((atom(f, Relation.EQ), part.body))) for f in found.unsettled]
     ring = part.body.ring or Ring.of(parameters)
     return disj((convert(formula, ring), *(convert(on_surface, ring) for on_surface in surfaces)))
 
 
-def _of_open_cells(body: ConvexBody, parameters: tuple[str, ...], budget: Budget) -> Formula | None:
-    """A formula read from the open cells and confirmed on the others; None in more than two parameters, and where it
-    holds elsewhere too."""
-    if len(parameters) > 2:
-        return None
-    factors, cells = body.cells()
-    listed = [FreeCell(tuple(2 * k for k in cell.path), cell.signs, cell.truth) for cell in cells]
-    formula = formula_of_open_cells(factors, listed, _owners(body.boundary, factors, cells))
-    return _confirmed(body, convert(formula, Ring.of(parameters)), parameters, budget)
+def _described(found: Tabulated) -> Formula:
+    """The formula of a table, with further polynomials where signs do not tell a true cell from a false one.
 
-
-def _confirmed(body: ConvexBody, formula: Formula, parameters: tuple[str, ...], budget: Budget) -> Formula | None:
-    """The closed formula with cuts that exclude what it holds besides the body; None if some cannot be excluded."""
-    ring = Ring.of(parameters)
-    for _ in range(MOST_CUTS):
-        order = cheapest_order(polynomials(formula), parameters, budget)
-        table = decompose(formula, order, ("",) * len(order), budget=budget).table
-        turned = [order.index(name) for name in parameters]
-
-        def holds(values: Sequence[Fraction], turned: list[int] = turned) -> bool:
-            return body.holds(tuple(values[k] for k in turned))
-
-        outside = strangers(table, holds, bounded=body.bounded)
-        if not outside:
-            return formula if outside is not None else None
-        points = [Point.of(ring, [point.number(k) for k in turned]) for point in outside]
-        cuts = [body.cut(approximation(point)) for point in points]
-        if not all(cut is not None and point.sign(cut.convert(ring)) > 0 for cut, point in zip(cuts, points)):
-            return None
-        formula = conj((formula, *(atom(cut.convert(ring), Relation.LE) for cut in cuts if cut is not None)))
-    return None
-
-
-def _owners(boundary: frozenset[Poly], factors: Sequence[Sequence[Poly]], cells: list[OpenCell]) -> dict[Poly, int]:
-    """On which side of a polynomial its zeros are: the negative one, but for polynomials of the boundary, which keep
-    both, and for polynomials in the first variable that vanish at an end of the set, which follow the set."""
-    owners = {f: -1 for level in factors for f in level if f not in boundary}
-    signs = {cell.path[0]: cell.signs[0] for cell in cells}
-    true = {cell.path[0] for cell in cells if cell.truth}
-    for j, f in enumerate(factors[0]):
-        ends = ((min(true), -1), (max(true), 1))
-        sides = {signs[k][j] for k, step in ends if k + step in signs and signs[k + step][j] != signs[k][j]}
-        if f in owners and len(sides) == 1:
-            owners[f] = 1 if sides == {"+"} else -1
-        elif len(sides) == 2:
-            owners.pop(f, None)
-    return owners
-
-
-def cheapest_order(polys: Sequence[Poly], names: tuple[str, ...], budget: Budget) -> tuple[str, ...]:
-    """The order of one or two variables whose last projection has the least degree in all.
-
-    A polynomial in the first variable alone that is not linear comes from the projection for the order given; in the
-    other order it would meet all the others, so that order is not tried.
+    Two cells that look alike part at some level over a common sample, with sectors between them. A rational value of
+    such a sector tells them apart, for good at the first level; at later levels that is only so over the sample, so
+    after ``MOST_PLANES`` of them derivatives are taken.
     """
-    first = [f for f in polys if f.variables == (f.ring.index[names[0]],)]
-    if len(names) != 2 or not polys or any(f.total_degree > 1 for f in first):
-        return names
+    table, planes, later = found.table, frozenset[Poly](), 0
+    while later < MOST_PLANES:
+        try:
+            return formula_of_cells(table.factors, free_cells(table))
+        except Undistinguished as pair:
+            planes |= {_plane(table, pair)}
+            later += pair.level > 0
+            table = found.refine(frozenset(), planes)
+    return construct(table, lambda levels: found.refine(levels, planes))[0]
 
-    def cost(order: tuple[str, ...]) -> int:
-        moved = [f.convert(Ring.of(order)) for f in polys]
-        return sum(f.total_degree for f in factor_lists(moved, 2, BROWN_MCCALLUM, budget)[0])
 
-    return min(permutations(names), key=cost)
+def _plane(table: CellTable, pair: Undistinguished) -> Poly:
+    """x = the sample of the middle sector between two cells, where their ways part."""
+    one, other = pair.ways
+    stack = table.root.stack
+    for position in one[: pair.level]:
+        assert stack is not None
+        stack = stack.cells[position].stack
+    assert stack is not None
+    value = stack.sectors[(one[pair.level] + other[pair.level] + 1) // 4]
+    return value.denominator * Ring.of(table.order).gen(pair.level) - value.numerator

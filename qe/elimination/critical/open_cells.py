@@ -8,16 +8,11 @@ A piece of the boundary over lower polynomials' zeros lies in the zeros of a pol
 Elsewhere, over an open cell B of the last but one space, the fibre of T over each point of B is an interval with
 interior points (otherwise no open cell over B would be true, while T, if it meets B x R at all, has interior points
 there); so a boundary point over B is an end of that interval and separates a true from a false sector.
-
-THEOREM. Such a T is bounded iff no true open cell lies over or in the first or last sector of a stack.
-PROOF. If T is unbounded, it has a direction d of recession (Rockafellar 1970, Theorem 8.4). Let d_k be its first
-nonzero coordinate and p an interior point of T over an open cell: p + s d is interior for all s >= 0 and has the first
-k - 1 coordinates of p, so it ends in an outermost sector of level k over them. The converse is clear.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
 from fractions import Fraction
 
@@ -29,17 +24,6 @@ from qe.options import Budget
 
 Values = tuple[Fraction, ...]
 Holds = Callable[[Values], bool]
-
-
-@dataclass(frozen=True, slots=True)
-class OpenCell:
-    """``path``: the number of the sector in every stack; ``signs``: per level the signs of all its factors, as text
-    of ``+`` and ``-``; ``values``: the sample."""
-
-    path: tuple[int, ...]
-    signs: tuple[str, ...]
-    values: Values
-    truth: bool
 
 
 @dataclass(slots=True)
@@ -82,6 +66,10 @@ class OpenCells:
         run = true_run(samples, self._near[level], test)
         if run:
             self._near[level] = samples[(run.start + run.stop) // 2]
+        if level < len(self.levels) - 1:
+            for k in run:
+                if (*path, k) not in self._stacks:
+                    test(k)
         self._stacks[path] = isolation, run
         return bool(run)
 
@@ -95,36 +83,21 @@ class OpenCells:
                 found |= {self.levels[last][j] for k in ends for j in isolation.sections[k].members}
         return found
 
-    def is_bounded(self) -> bool:
-        """Whether T is bounded, by the second theorem."""
-        return all(not run or (run.start and run.stop <= len(i.sections)) for i, run in self._stacks.values())
-
-    def cells(self, point: Point, path: tuple[int, ...] = ()) -> Iterator[OpenCell]:
-        """All open cells, after ``explore``."""
-        return self._cells(point, path, (), (), True)
-
-    def _cells(
-        self, point: Point, path: tuple[int, ...], signs: tuple[str, ...], values: Values, possible: bool
-    ) -> Iterator[OpenCell]:
-        if point.depth == len(self.levels):
-            yield OpenCell(path, signs, values, possible)
-            return
-        self.budget.check("open cells")
-        isolation, run = self._stacks.get(path) or (isolate_over(point, self.levels[point.depth]), range(0))
-        texts = isolation.texts
-        for k, value in enumerate(isolation.samples):
-            here = possible and k in run
-            yield from self._cells(isolation.sample(2 * k), (*path, k), (*signs, texts[2 * k]), (*values, value), here)
-
 
 def true_run(samples: Sequence[Fraction], near: Fraction, test: Callable[[int], bool]) -> range:
-    """The indices with a true test, which follow one another; sought from the sample nearest to a number."""
+    """The indices with a true test, which follow one another; sought from the sample nearest to a number. Its ends are
+    found by bisection: others in the middle are not tested."""
     first = next((k for k in sorted(range(len(samples)), key=lambda k: abs(samples[k] - near)) if test(k)), None)
     if first is None:
         return range(0)
-    start, stop = first, first + 1
-    while start > 0 and test(start - 1):
-        start -= 1
-    while stop < len(samples) and test(stop):
-        stop += 1
-    return range(start, stop)
+    ends = []
+    for false in (-1, len(samples)):
+        true = first
+        while abs(false - true) > 1:
+            middle = (true + false) // 2
+            if test(middle):
+                true = middle
+            else:
+                false = middle
+        ends.append(true)
+    return range(ends[0], ends[1] + 1)

@@ -51,7 +51,6 @@ class Walls:
 
     polys: frozenset[Poly]
     inside: tuple[Values, ...]
-    bounded: bool
     decided: int
 
 
@@ -96,9 +95,9 @@ def walls_in_plane(surfaces: frozenset[Poly], box: Box, holds: Holds, origin: Po
         found = frozenset().union(*(fibre.ends for fibre in seen.values()))
         if found == walls:
             inside = [(x, y) for x, fibre in sorted(seen.items()) for y in fibre.inside]
-            return Walls(walls.union(upright), tuple(inside), True, len(seen))
+            return Walls(walls.union(upright), tuple(inside), len(seen))
         walls = found
-    return Walls(frozenset(), (), True, len(seen))
+    return Walls(frozenset(), (), len(seen))
 
 
 @dataclass(frozen=True, slots=True)

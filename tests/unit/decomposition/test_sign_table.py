@@ -11,7 +11,7 @@ from hypothesis import strategies as st
 
 from qe.decomposition.decompose import decompose
 from qe.decomposition.follows import follows, is_listed
-from qe.decomposition.formulas import Undistinguished, formula_of_cells, formula_of_open_cells
+from qe.decomposition.formulas import Undistinguished, formula_of_cells
 from qe.decomposition.matrix import compile_matrix, specialise
 from qe.decomposition.sign_table import Columns, SignTable, free_cells
 from qe.exact.ring import Ring
@@ -124,13 +124,6 @@ def test_two_cases_of_signs_are_one_product() -> None:
     assert formula_of_cells([[X], [-Y]], cells) == read("x*y > 0")
     cells = [replace(c, truth=not c.truth) for c in cells]
     assert formula_of_cells([[X], [Y]], cells) == read("x*y >= 0")
-
-
-def test_limits_of_open_cells_are_told_by_the_side_that_owns_them() -> None:
-    """A product of two variables would hold on both sides of each."""
-    cells = [FreeCell((i, j), (x + y,), x != y) for i, x in enumerate("-+") for j, y in enumerate("-+")]
-    found = formula_of_open_cells([[X, Y]], cells, {X: -1})
-    assert [holds_at(found, {"x": 0, "y": y}) for y in (-1, 1)] == [False, True]
 
 
 @settings(max_examples=60, deadline=None)

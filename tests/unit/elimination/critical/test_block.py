@@ -1,14 +1,12 @@
 """Truth sets of blocks by critical values, as tables and as convex bodies, against sets that are known."""
 
-from fractions import Fraction as F
-
 import pytest
 
 from qe.decomposition.operators.brown_mccallum import BROWN_MCCALLUM
 from qe.decomposition.operators.lazard import LAZARD
 from qe.decomposition.operators.operator import Operator
 from qe.elimination.critical import block
-from qe.elimination.critical.block import ConvexBody, Disjunct, Tabulated, eliminate_block
+from qe.elimination.critical.block import Disjunct, Tabulated, eliminate_block
 from qe.elimination.critical.table import Shape
 from qe.errors import NotWellOriented, Unable
 from qe.formula.syntax import Exists
@@ -33,24 +31,19 @@ def truths(table: CellTable) -> dict[str, bool | None]:
 
 def test_a_convex_body() -> None:
     (part,) = found("ex x. (x - a)^2 <= 1 and x^2 <= 4", "a")
-    body = part.found
-    assert isinstance(body, ConvexBody) and body.bounded
-    assert [body.holds((F(k, 2),)) for k in (-7, -6, -1, 0, 5, 6, 7)] == [False, True, True, True, True, True, False]
-    assert {str(p) for p in body.boundary} == {"Poly(a - 3)", "Poly(a + 3)"}
-    cut = body.cut((F(5),))
-    assert cut is not None and cut.evaluate((F(5), F(0))) > 0
-    assert all(cut.evaluate((F(k), F(0))) <= 0 for k in range(-3, 4))
-    levels, cells = body.cells()
-    assert set(levels[0]) == body.boundary and [c.truth for c in cells] == [False, True, False]
-    made = body.tabulate()
-    assert truths(made.table) == {"--": False, "-0": True, "-+": True, "0+": True, "++": False} and not made.unsettled
-    assert truths(made.refine(frozenset((0,)))) == truths(made.table)
+    made = part.found
+    assert isinstance(made, Tabulated) and not made.unsettled
+    assert truths(made.table) == {"--": False, "-0": True, "-+": True, "0+": True, "++": False}
+    assert truths(made.refine(frozenset((0,)), frozenset())) == truths(made.table)
+    a = made.table.factors[0][0].ring.gen(0)
+    finer = truths(made.refine(frozenset(), frozenset((a,))))
+    assert len(finer) == 7 and list(finer.values()).count(True) == 5
 
 
 def test_an_unbounded_body() -> None:
     (part,) = found("ex x. (x - a)^2 <= 1 and x >= 0", "a")
-    assert isinstance(part.found, ConvexBody) and not part.found.bounded
-    assert [part.found.holds((F(k),)) for k in (-2, -1, 0, 9)] == [False, True, True, True]
+    assert isinstance(part.found, Tabulated)
+    assert truths(part.found.table) == {"-": False, "0": True, "+": True}
 
 
 def test_any_set_as_a_table() -> None:
@@ -87,11 +80,9 @@ def test_in_space_only_bounded_convex_sets_are_taken_for_convex(
         asked.append((operator, shape))
         raise NotWellOriented("as if")
 
-    (part,) = found(f"ex x. (x - a)^2 + b^2 + c^2 <= 1{more}", "a", "b", "c")
-    assert isinstance(part.found, ConvexBody)
     monkeypatch.setattr(block, "TableBuilder", recorded)
     with pytest.raises(NotWellOriented):
-        part.found.tabulate()
+        found(f"ex x. (x - a)^2 + b^2 + c^2 <= 1{more}", "a", "b", "c")
     assert asked == [(BROWN_MCCALLUM, shape), (LAZARD, Shape.CLOSED)]
 
 

@@ -44,19 +44,6 @@ def test_proposals_are_not_believed(monkeypatch: pytest.MonkeyPatch) -> None:
             assert fibres.hold_at((p, q)) == in_lens(p, q)
 
 
-def test_cut_separates_an_outer_point_from_the_set() -> None:
-    fibres = Fibres(only(LENS, ("p", "q"), ("y", "z")), Budget())
-    inside = [p for p in points() if in_lens(*p)]
-    for p, q in points():
-        cut = fibres.cut((p, q))
-        if in_lens(p, q):
-            assert cut is None
-        elif cut is not None:
-            assert cut.evaluate((p, q, 0, 0)) > 0
-            assert all(cut.evaluate((a, b, 0, 0)) <= 0 for a, b in inside)
-    assert fibres.cut((F(4), F(0))) is not None and fibres.cut((F(-3), F(-3))) is not None
-
-
 def algebraic(text: str) -> RealAlgebraic:
     return RealAlgebraic.from_root({"sqrt2": (-2, 0, 1), "sqrt3": (-3, 0, 1)}[text], 1, 2)
 

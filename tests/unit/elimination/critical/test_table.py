@@ -3,9 +3,12 @@
 from fractions import Fraction
 
 import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
 
 from qe.decomposition.operators.brown_mccallum import BROWN_MCCALLUM
 from qe.decomposition.operators.lazard import LAZARD
+from qe.decomposition.projection import factor_lists
 from qe.elimination.critical.table import Shape, TableBuilder
 from qe.errors import BudgetExceeded, NotWellOriented
 from qe.exact.ring import Poly, Ring
@@ -73,3 +76,41 @@ def test_limits_and_polynomials_that_are_zero_on_a_line() -> None:
         built(Shape.ANY, Oracle(X * Y, False), levels).run(Point(RING))
     cell = built(Shape.ANY, Oracle(X * Y - 1, False), levels, operator=LAZARD).run(Point(RING))
     assert cell.stack is not None and cell.stack.sectors == (Fraction(-1), Fraction(1))
+
+
+class EveryCell(TableBuilder):
+    """Asks about every cell."""
+
+    def _truth(self, point: Point, vanishing: frozenset[Poly], *_: object) -> bool:
+        return self.truth(point, vanishing)
+
+
+NUMBERS = st.integers(-3, 3)
+HALVES = st.tuples(NUMBERS, NUMBERS, st.integers(0, 5)).filter(lambda h: h[0] or h[1])
+DISCS = st.tuples(NUMBERS, NUMBERS, st.integers(1, 20))
+
+
+@given(st.lists(HALVES, max_size=3), st.lists(DISCS, max_size=2), st.integers(-4, 4))
+@settings(max_examples=60, deadline=None)
+def test_a_convex_set_is_the_same_cell_by_cell(
+    halves: list[tuple[int, int, int]], discs: list[tuple[int, int, int]], line: int
+) -> None:
+    """With interior points, bounded or not, and lines across it that are no part of its boundary."""
+    polys = [a * X + b * Y - c for a, b, c in halves] + [(X - a) ** 2 + (Y - b) ** 2 - r for a, b, r in discs]
+    if not polys:
+        return
+    asked = 0
+
+    def inside(point: Point, vanishing: frozenset[Poly]) -> bool:
+        nonlocal asked
+        asked += 1
+        return all(point.sign(p) <= 0 for p in polys)
+
+    levels = factor_lists([*polys, X - line, X + Y - line], 2, BROWN_MCCALLUM, Budget())
+    given = (levels, BROWN_MCCALLUM, frozenset(f for level in levels for f in level))
+    every = leaves(EveryCell(*given, Shape.ANY, inside, Budget()).run(Point(RING)))
+    needed = asked
+    root = TableBuilder(*given, Shape.CONVEX, inside, Budget()).run(Point(RING))
+    assert root.stack is not None
+    if any(t for cell in root.stack.cells[::2] for t in leaves(cell)[::2]):
+        assert leaves(root) == every and asked < 2 * needed

@@ -8,7 +8,7 @@ from hypothesis import strategies as st
 
 import qe
 from qe.api.input import read_formula
-from qe.elimination.critical.block import ConvexBody
+from qe.elimination.critical.block import Tabulated
 from qe.elimination.critical.method import ConvexUniversal
 from qe.elimination.critical.universal import eliminate_universal, necessary_conditions
 from qe.elimination.protocol import Context
@@ -193,7 +193,7 @@ def test_no_conditions_elsewhere(text: str) -> None:
 def test_the_set_itself() -> None:
     budget = Budget(60)
     found = eliminate_universal(*asked(DISCS, "x", "y"), budget=budget)
-    assert found is not None and isinstance(found.found, ConvexBody) and found.stats["universal"] == 1
-    assert found.found.holds((Fraction(1, 2), Fraction(1, 2))) and not found.found.holds((Fraction(2), Fraction(0)))
+    assert found is not None and isinstance(found.found, Tabulated) and found.stats["universal"] == 1
+    assert not found.found.unsettled
     dents = "all t. 0 <= t and t <= 1 -> (x - t)^2 + (y - t^2)^2 >= 2"
     assert eliminate_universal(*asked(dents, "x", "y"), budget=budget) is None

@@ -52,7 +52,7 @@ def test_a_corner_that_no_first_sample_sees_is_a_wall() -> None:
     """The middle of the disc shows the circle alone; the line cuts off a sliver far from there."""
     system = read("x^2 + y^2 <= 4 and 10*x + y <= 19")
     found = walls_of(system, surfaces_of(system))
-    assert found.polys == surfaces_of(system) and found.inside and found.bounded
+    assert found.polys == surfaces_of(system) and found.inside
 
 
 def test_far_surfaces_are_left_out() -> None:
@@ -90,7 +90,6 @@ def test_the_walls_are_those_between_true_and_false_cells(
     found = walls_of(system, surfaces)
     assert {f for f in found.polys if f.level} == cells.walls()
     assert all(inside(system, place) for place in found.inside)
-    assert found.bounded and cells.is_bounded()
 
 
 def test_the_shadow_found_by_walls_is_the_one_found_by_all_cells(monkeypatch: pytest.MonkeyPatch) -> None:
