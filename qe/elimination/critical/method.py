@@ -220,10 +220,10 @@ def _described(found: Tabulated) -> Formula:
 
     Two cells that look alike part at some level over a common sample, with sectors between them. A rational value of
     such a sector tells them apart, for good at the first level; at later levels that is only so over the sample, so
-    after ``MOST_PLANES`` of them derivatives are taken.
+    after ``MOST_PLANES`` of them, and in space, derivatives are taken.
     """
     table, planes, later = found.table, frozenset[Poly](), 0
-    while later < MOST_PLANES:
+    while later < MOST_PLANES and table.free <= 2:
         try:
             return formula_of_cells(table.factors, free_cells(table))
         except Undistinguished as pair:
