@@ -16,7 +16,7 @@ from qe.formula.features import length
 from qe.formula.normal import nnf
 from qe.formula.syntax import FALSE, TRUE, Atom, Formula
 from qe.formula.traverse import atoms, bound_variables, conjuncts
-from qe.options import Budget
+from qe.options import Budget, Stage
 from qe.proof.step import Nested
 
 DEGREES = {1: 40, 2: 8, 3: 3, 4: 2}
@@ -31,6 +31,9 @@ BEYOND = 1.7
 SETTLE_WORK = 2000
 """Units of work for the question whether an answer is constant."""
 
+LEFT_OUT = frozenset({Stage.BRANCHING, Stage.SAMPLES, Stage.SQUARES})
+"""What this question is not worth: points have been tried, and these took more than all the rest of some questions."""
+
 ATOMS, LONG = 40, 1000
 """A formula of more atoms is not decided; one of more than ``LONG`` is not even evaluated."""
 
@@ -43,9 +46,10 @@ def constant(formula: Formula, context: Context, start: Start | None) -> Formula
     if start is None or (decide := context.decide) is None:
         return formula
     budget, decisions, question = context.budget.part(SETTLE_WORK), list[Nested](), start.question
+    options = context.options.with_(without=context.options.without | LEFT_OUT)
 
     def satisfiable(sentence: Formula) -> bool:
-        decisions.append(decide(sentence, context.options, budget).nested(sentence))
+        decisions.append(decide(sentence, options, budget).nested(sentence))
         return decisions[-1].answer == TRUE
 
     value = constant_value(formula, satisfiable, question, context.budget.check)

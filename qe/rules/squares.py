@@ -45,12 +45,12 @@ def conditions_of(parts: Sequence[Formula]) -> Iterator[tuple[Poly, tuple[Poly, 
                 yield part.poly, (form, -least, part.relation is Relation.EQ)
 
 
-def _by_others(poly: Poly, sign: int, body: Formula, context: BlockContext, orthant: frozenset[int]) -> Positive | None:
+def _by_others(poly: Poly, sign: int, body: Formula, orthant: frozenset[int]) -> Positive | None:
     """The sign of a polynomial by the others, where the body denies it: no condition is dropped for another one."""
     from qe.positivity.gram import sum_of_squares
 
     denied = [a for a in conjuncts(body) if isinstance(a, Atom) and a.poly == poly and sign not in a.relation.signs]
-    atoms = (a for a in (*conjuncts(body), *context.known) if isinstance(a, Atom) and a.poly != poly)
+    atoms = (a for a in conjuncts(body) if isinstance(a, Atom) and a.poly != poly)
     others = [a for a in atoms if a.poly.total_degree > 1 or a.poly.term_count() > 1]
     conditions = [a.poly * s for a in others for s in (1, -1) if s in a.relation.signs <= {0, s}]
     if not denied or not 0 < len(conditions) <= MOST_CONDITIONS or len(poly.variables) <= FEWEST_VARIABLES:
@@ -100,7 +100,7 @@ def known_signs(variables: tuple[str, ...], body: Formula, context: BlockContext
                 or nowhere_negative(p, orthant)
                 or positive_on_cone(p, bounds)
                 or positive_under(p, under, orthant)
-                or _by_others(poly, sign, body, context, orthant)
+                or (_by_others(poly, sign, body, orthant) if set(body.free) <= set(variables) else None)
             )
             if proof is None:
                 continue
