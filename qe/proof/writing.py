@@ -30,7 +30,6 @@ RULES: Mapping[str, str] = {
     "translation of the origin": "All polynomials are constant along a direction: one coordinate may be zero.",
     "nested blocks of one kind gathered": "A quantifier may also stand before conditions without its variables.",
     "rotation of the axes": "All polynomials are constant along a rotation: one coordinate may be zero.",
-    "linear form as a variable": "Where m is not 0, m*x + n takes every value as x does.",
     "affine coordinates": "Invertible linear forms in the variables of a block take all values as these do.",
     "linear form named": "Conditions that look at one linear form are conditions on a new variable.",
     "sphere seen along a form": "On a sphere l.v takes the values of a segment (Cauchy's inequality).",
@@ -57,7 +56,6 @@ RULES: Mapping[str, str] = {
     "critical values": "The truth of a block over bounded fibres changes only at critical values.",
     "critical values of a universal block": "The parameters form a convex set whose boundary is at critical values.",
     "constant along directions": "Both sides are constant along a direction of the parameters: one may be zero.",
-    "degenerate truth set": "A convex truth set without interior points lies on a hyperplane.",
     "covering": "Intervals on each of which the formula has one truth value cover the line, or one is enough, "
     "over a sample and near it (Ábrahám, Davenport, England, Kremer 2021).",
     "Boolean search": "Every choice of cases contains comparisons that no point satisfies together "

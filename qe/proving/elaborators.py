@@ -14,10 +14,10 @@ from math import lcm
 
 from qe.errors import CertificateRejected
 from qe.exact.ring import Ring
-from qe.formula.build import atom, conj, disj, exists
+from qe.formula.build import conj, exists
 from qe.formula.normal import nnf
 from qe.formula.syntax import TRUE, Atom, Exists, Formula, Relation
-from qe.formula.traverse import conjuncts, disjuncts
+from qe.formula.traverse import conjuncts
 from qe.kernel.block import existential
 from qe.kernel.root import root_goals
 from qe.kernel.step import Claim, Context, Limits, only
@@ -39,7 +39,6 @@ from qe.proving.ranges import by_ranges
 from qe.proving.scaling import scaled, translated
 from qe.proving.shadows import projected
 from qe.proving.shifts import shifted
-from qe.proving.thin import degenerate_truth_set
 from qe.proving.turns import turned
 from qe.rules.closed_forms import matches
 
@@ -129,25 +128,6 @@ def witness(made: Made, after: Formula) -> None:
     made.terms(block, TRUE, there, {})
 
 
-def sheared(made: Made, after: Formula) -> None:
-    """m*x + n as the new x; where m may vanish, the case that it does stays as it is."""
-    variable, form = only(made.claim, "variable", "form")
-    (block, name, x), ring = made.claim.variable(variable), made.ring
-    linear = form.polynomial(ring)
-    if linear.degree(x) != 1:
-        raise form.fail("expected a polynomial of degree 1 in the variable")
-    n, m = linear.coefficients(x)
-    if m.is_constant and m.constant_value() < 0:
-        m, n = -m, -n
-    there, back = {name: (ring.gen(x) - n, m)}, {name: (m * ring.gen(x) + n, ring.constant(1))}
-    if m.is_constant:
-        return made.terms(block, after, there, back)
-    cases = [exists(block.variables, conj((atom(m, rel), block.body))) for rel in (Relation.NE, Relation.EQ)]
-    regular = next((part for part in disjuncts(after) if part != cases[1]), after)
-    made.simplified(block, disj(cases))
-    return made.terms(cases[0], regular, there, back, used=())
-
-
 def positioned(made: Made, after: Formula) -> None:
     """Affine coordinates in place of the variables of a block, by one variable after the other."""
     index = made.ring.index
@@ -196,14 +176,12 @@ _BY_RULE: Mapping[str, Elaborator] = {
     "value that is taken": value_taken,
     "roots counted": roots_counted,
     "witness in the parameters": witness,
-    "degenerate truth set": degenerate_truth_set,
     "degree shift": shifted,
     "constant along directions": constant_along,
     "conditions on zeros that follow": zeros,
     "infinity first": infinity_first,
     "ranges that exclude each other": by_ranges,
     "sphere seen along a form": seen_along,
-    "linear form as a variable": sheared,
     "linear form named": named,
     "mirror images of a convex set": mirrored,
     "exchangeable variables in order": ordered,

@@ -15,7 +15,6 @@ from qe.rules.exchange import exchange_variables
 from qe.rules.generic import drop_inequations
 from qe.rules.ranges import excluded_by_ranges
 from qe.rules.scaling import fix_origin, fix_scale
-from qe.rules.shear import linear_form
 from qe.rules.sphere import sphere_along_form
 from qe.rules.square_alone import square_alone
 from qe.rules.squares import known_signs, signs_before_substitution
@@ -48,7 +47,6 @@ RULES: tuple[Rule, ...] = (
     rule(cancel_equations, StepKind.CANCELLING),
     rule(groebner_equations, StepKind.GROEBNER),
     rule(shift_degree, StepKind.DEGREE_SHIFT),
-    rule(linear_form, StepKind.SHEAR),
     rule(exchange_variables, StepKind.EXCHANGE),
     rule(split_factors, StepKind.FACTOR_SPLIT),
     rule(fix_scale, StepKind.SCALING),

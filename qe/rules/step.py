@@ -43,7 +43,6 @@ class StepKind(Enum):
     ROTATION = "rotation of the axes", Stage.SYMMETRY
     EXCHANGE = "two variables exchanged", Stage.EXCHANGE
     SCALING = "homogeneous scaling", Stage.SYMMETRY
-    SHEAR = "linear form as a variable", Stage.SYMMETRY
     MIRROR = "mirror images of a convex set", Stage.SYMMETRY
     GROEBNER = "Groebner basis of the equations", Stage.EQUATIONS
     CANCELLING = "multiple of an equation subtracted", Stage.CANCELLING, Stage.EQUATIONS

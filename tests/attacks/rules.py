@@ -156,12 +156,6 @@ RULES: dict[str, Row] = {
         "all x, y. x^2 + y^2 {O} a or (ex u, v. u = {2|3}*x and v = {2|3}*y and x*u + y*v {R} b)",
         "ex x, y, u, v. x*u + y*v {O} a and x^2 + y^2 {R} {p} and u^2 + v^2 {=|<=} b",
     ),
-    "linear form as a variable": row(
-        "ex x, y, z. y /= z and (x*(y - z) + y)^{2|4} + a*(x*(y - z) + y) {O} {L}",
-        "ex x, y. (x*y + {z|a})^3 + {s}*(x*y + {z|a})^2 {O} a and y {O} b",
-        "ex x, y. (x*y + a)^3 {O} b*(x*y + a) and (all z. z {O} y or a*z {R} x*y)",
-        "ex x, y. (x*y + z)^3 + (x*y + z)^2 + {L} {<|>} 0 and (x*y + z)^4 + x*y + z {O} b and x {O} a",
-    ),
     "linear form named": row(
         "ex x, y. (a + b)*x + (a - b)*y = {s} and (a^2 - b^2)*x*y {R} p and x {O} {a|b|1}",
         "ex x, y. (a + b)*x - b*y = s and (a*x + y - b)*(a*x + y + c) {R} b and x {O} a",
@@ -218,13 +212,6 @@ RULES: dict[str, Row] = {
     "constant along directions": row(
         "all x. {0|-1} <= x and x <= 1 -> {s}*a + {s}*m + b*x <= x^2 and a*x + {s}*m*x + b <= {p}",
         "all x. -1 <= x and x <= {p} -> -m <= a + b*x + {s}*x^2 and a + b*x + {s}*x^2 <= m",
-        method=Method.CRITICAL,
-    ),
-    "degenerate truth set": row(
-        "all t. 0 <= t and t <= {p} -> a^2 + {p}*b^2 + t^3 <= {s}*t - {p}",
-        "all t. 0 <= t and t <= {p} -> (a - {n})^2 + (b - {p}*t{|^3})^2 <= 1/{p}",
-        "all t. -1 <= t and t <= {p} -> (a*t + b + {n})^2 <= {0|0|t^2 - {p}}",
-        "all t. 0 <= t and t <= 1 -> (a - t)^2 + {p}*b^2 <= {1/4|1/8}",
         method=Method.CRITICAL,
     ),
     "elimination set": row("ex x. a*x^2 + b*x {O} {L} and x {O} {n}", "ex x. {L}*x {O} b and x {O} a and x {R} {n}"),
@@ -314,10 +301,10 @@ PRIMITIVES: dict[str, tuple[str, ...]] = {
         *("signs by sums of squares", "Groebner basis of the equations", "multiple of an equation subtracted"),
     ),
     "quantifiers": ("square of a variable alone", "two variables exchanged", "value that is taken"),
-    "steps": ("homogeneous scaling", "linear form as a variable", "witness in the parameters"),
+    "steps": ("homogeneous scaling", "witness in the parameters"),
     "converse": ("two variables exchanged",),
     "no exception": ("constant", "redundant part", "signs of factors"),
-    "terms": ("linear form as a variable", "translation of the origin", "witness in the parameters"),
+    "terms": ("translation of the origin", "witness in the parameters"),
     "root": ("value that is taken",),
     "theorem": ("cubic on an interval", "quadric in a quadric", "roots in a half-plane", "two balls"),
 }

@@ -96,12 +96,6 @@ CAPTURED: list[tuple[str, str, str, Any]] = [
         {"solved": _solved("b*x - a", None)},
     ),
     (
-        "linear form as a variable",
-        "ex x. x + a = 0 and (ex a. x + a > 1 and a < 0)",
-        "ex x. x = 0 and (ex a. x > 1 and a < 0)",
-        {"variable": "x", "form": line("x + a")},
-    ),
-    (
         "affine coordinates",
         "ex x, y. x + y = a and (ex y. x + y > 1 and y < a)",
         "ex x, y. x = a and (ex y. x > 1 and y < a)",

@@ -9,14 +9,13 @@ from fractions import Fraction
 from qe.convex.violation import proposed
 from qe.decomposition.operators.brown_mccallum import BROWN_MCCALLUM
 from qe.decomposition.operators.operator import Operator
-from qe.decomposition.projection import Levels, factor_lists
+from qe.decomposition.projection import factor_lists
 from qe.elimination.critical.boundary import critical_hypersurfaces
 from qe.elimination.critical.bounded import has_bounded_fibres
 from qe.elimination.critical.fibres import Fibres, Spared
 from qe.elimination.critical.open_cells import OpenCells
 from qe.elimination.critical.system import System, systems
 from qe.elimination.critical.table import Shape, TableBuilder, Truth
-from qe.elimination.critical.walls import FEW, Box, Walls, box_around, walls_in_plane
 from qe.errors import Unable
 from qe.exact.nearby import nearby
 from qe.exact.quadratic_form import quadratic
@@ -106,28 +105,24 @@ class Run:
     def convex(self) -> Tabulated | None:
         """A closed convex truth set, if it has interior points."""
         surfaces = critical_hypersurfaces(self.system, thin_parts=False, budget=self.budget)
-        many = self.system.free == 2 and len(surfaces) > FEW
-        return self.body(surfaces, self._hint(), box_around(self.system, self.budget) if many else None)
+        return self.body(surfaces, self._hint())
 
-    def body(self, surfaces: frozenset[Poly], hint: tuple[Fraction, ...], box: Box | None = None) -> Tabulated | None:
+    def body(self, surfaces: frozenset[Poly], hint: tuple[Fraction, ...]) -> Tabulated | None:
         """The closed convex truth set with its boundary in the zeros of ``surfaces``, if it has interior points.
-
-        ``box``: the smallest one around it in the plane, if it is known.
 
         A point p on a boundary polynomial belongs to such a set T iff the segment from p to an interior point c
         begins in it: then all of (p, c] is interior (Rockafellar 1970, Theorem 6.1), and otherwise p has a
         neighbourhood outside.
         """
         origin = Point(self.system.ring, watch=Watch(self.budget.check, self.budget.spend))
-        if box is None:
-            found = self._explored(surfaces, hint, origin)
-        else:
-            found = walls_in_plane(surfaces, box, self.fibres.hold_at, origin, self.budget)
-        boundary = found.polys
-        self.stats.update({"hypersurfaces": len(surfaces), "cells decided": found.decided, "boundary": len(boundary)})
-        if not found.inside:
+        levels = factor_lists(surfaces, self.system.free, BROWN_MCCALLUM, self.budget)
+        cells = OpenCells(levels, self.fibres.hold_at, self.budget, hint)
+        cells.explore(origin)
+        boundary = frozenset(cells.walls() | {f for f in surfaces if f.level < self.system.free - 1})
+        self.stats.update({"hypersurfaces": len(surfaces), "cells decided": cells.decided, "boundary": len(boundary)})
+        if not cells.inside:
             return None
-        centre = found.inside[len(found.inside) // 2]
+        centre = cells.inside[len(cells.inside) // 2]
 
         def truth(point: Point, vanishing: frozenset[Poly]) -> bool:
             if not vanishing and not point.algebraic:
@@ -136,12 +131,6 @@ class Run:
 
         return self._tabulated(boundary, Shape.CONVEX, truth)
 
-    def _explored(self, surfaces: frozenset[Poly], hint: tuple[Fraction, ...], origin: Point) -> Walls:
-        cells = OpenCells(self._levels(surfaces), self.fibres.hold_at, self.budget, hint)
-        cells.explore(origin)
-        boundary = frozenset(cells.walls() | {f for f in surfaces if f.level < self.system.free - 1})
-        return Walls(boundary, tuple(cells.inside), cells.decided)
-
     def _hint(self) -> tuple[Fraction, ...]:
         """A point of the truth set, if one is proposed; the origin otherwise."""
         size = self.system.ring.size
@@ -149,9 +138,6 @@ class Run:
         forms = [form for c in conditions if (form := quadratic(c.poly, range(size))) is not None]
         witness, _ = proposed(forms)
         return (witness or (Fraction(0),) * size)[: self.system.free]
-
-    def _levels(self, polys: frozenset[Poly]) -> Levels:
-        return factor_lists(polys, self.system.free, BROWN_MCCALLUM, self.budget)
 
     def _tabulated(self, boundary: frozenset[Poly], shape: Shape, truth: Truth) -> Tabulated:
         """The table for the boundary polynomials, closed under projection, with the truth of every cell."""

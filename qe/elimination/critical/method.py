@@ -12,7 +12,6 @@ from qe.decomposition.order import brown_order
 from qe.decomposition.sign_table import free_cells
 from qe.elimination.critical.apart import Piece, taken_apart
 from qe.elimination.critical.block import Disjunct, Tabulated, eliminate_block
-from qe.elimination.critical.degenerate import thin_universal
 from qe.elimination.critical.universal import eliminate_universal
 from qe.elimination.protocol import Context, Outcome
 from qe.errors import Unable
@@ -20,7 +19,7 @@ from qe.exact.ring import Poly, Ring
 from qe.formula.block import Block
 from qe.formula.build import atom, conj, convert, disj, exists, forall
 from qe.formula.normal import nnf
-from qe.formula.syntax import FALSE, TRUE, ForAll, Formula, Relation
+from qe.formula.syntax import FALSE, TRUE, Formula, Relation
 from qe.formula.traverse import conjuncts, polynomials
 from qe.options import Budget, Options, Stage
 from qe.proof.cells import CellTable
@@ -85,7 +84,7 @@ class Found:
 
 
 class ConvexUniversal:
-    """Universal blocks in one or two parameters whose truth set is seen to be convex, or thin.
+    """Universal blocks in one or two parameters whose truth set is seen to be convex.
 
     To be asked before preparation splits the conjuncts. A block of few pieces is eliminated piece by piece, which
     takes less time, gives shorter answers and shorter proofs; where one is not seen to be convex, as a whole.
@@ -109,11 +108,7 @@ class ConvexUniversal:
         order = _order(problem.variables, negated, context.options)
         formula = self.convex(problem.variables, negated, order, context)
         if formula is None:
-            thin = thin_universal(ForAll(problem.variables, problem.body), negated, order, budget)
-            if thin is None:
-                return None
-            evidence = {"proof": thin.evidence}
-            return Outcome(context.log.step("degenerate truth set", problem.formula, thin.formula, evidence=evidence))
+            return None
         known = {"order": order}
         return Outcome(context.log.step(UNIVERSAL_RULE, problem.formula, formula, evidence=known), order=order)
 

@@ -20,13 +20,10 @@ from qe.elimination.critical.bounded import has_bounded_fibres
 from qe.elimination.critical.fibres import Fibres, Spared
 from qe.elimination.critical.system import System, systems
 from qe.exact.ring import Poly, Ring
-from qe.formula.build import atom, conj, convert
-from qe.formula.syntax import Formula, Relation
+from qe.formula.build import convert
+from qe.formula.syntax import Formula
 from qe.options import Budget
 from qe.proof.multipliers import FormRelation
-
-SAMPLES = 8
-"""Into so many equal parts the range of the quantified variable is divided for necessary conditions."""
 
 
 def eliminate_universal(
@@ -82,38 +79,3 @@ def _somewhere_negative(poly: Poly, inside: tuple[Condition, ...], budget: Budge
         return poly.constant_value() < 0
     system = System(poly.ring, 0, (), (*inside, Condition(poly, FormRelation.LT)))
     return Fibres(system, budget).hold_at(())
-
-
-def necessary_conditions(
-    variables: Sequence[str], negated: Formula, parameters: Sequence[str]
-) -> tuple[Formula, tuple[Fraction, ...]] | None:
-    """Conditions g_j(p, y) <= 0 at some values of the one quantified variable, and these values; the conditions hold
-    wherever the block does.
-
-    By continuity that is so also at an end of the interval D which does not belong to D. None for several quantified
-    variables, and where D is not an interval with rational ends.
-    """
-    ring = Ring.of((*parameters, *variables))
-    found: list[Formula] = []
-    used: dict[Fraction, None] = {}
-    for part in systems(convert(negated, ring), ring, len(parameters)):
-        parted = _parted(part) if len(variables) == 1 else None
-        if parted is None or (ends := _interval(parted[0], part.free)) is None:
-            return None
-        low, high = ends
-        values = [low + (high - low) * k / SAMPLES for k in range(SAMPLES + 1)] if low < high else []
-        used |= dict.fromkeys(values)
-        found += [atom(parted[1].at_rational(part.free, value), Relation.LE) for value in values]
-    return conj(found), tuple(used)
-
-
-def _interval(domain: Sequence[Condition], variable: int) -> tuple[Fraction, Fraction] | None:
-    """The ends of the interval that linear inequalities describe; None for other conditions."""
-    lower: list[Fraction] = []
-    upper: list[Fraction] = []
-    for condition in domain:
-        if condition.poly.degree(variable) != 1 or condition.relation is FormRelation.EQ:
-            return None
-        constant, slope = (c.constant_value() for c in condition.poly.coefficients(variable))
-        (upper if slope > 0 else lower).append(Fraction(-constant, slope))
-    return (max(lower), min(upper)) if lower and upper else None

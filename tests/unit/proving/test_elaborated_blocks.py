@@ -12,16 +12,12 @@ from qe.formula.counting import without_root_atoms
 from qe.formula.traverse import conjuncts
 from qe.io.text import read
 from tests.tables import each
-from tests.unit.certify.claims import NO_LEMMAS, line, step, written
+from tests.unit.certify.claims import line, written
 from tests.unit.proving.elaborated import Row, is_a_step_and_no_other_is, refused, rows
 
 GUARD = "linear equation solved under a guard"
-THIN, FAR, ZEROS = "degenerate truth set", "infinity first", "conditions on zeros that follow"
+FAR, ZEROS = "infinity first", "conditions on zeros that follow"
 ROOTS = "roots counted"
-
-
-def signs(before: str, after: str = "false") -> dict[str, Any]:
-    return step("signs", before, after, {"theory": NO_LEMMAS})
 
 
 # The two cases of a coefficient that may vanish.
@@ -32,15 +28,6 @@ PLANE = "(ex y. a /= 0 and a*b > a^2*y) or (ex x, y. a = 0 and b = 0 and x > y)"
 SUM = "(a + b /= 0 and (a + b)*c^3 < (a + b)^4) or (ex x. a + b = 0 and c = 0 and x^3 < 1)"
 
 
-def thin(values: list[str], parts: list[Any], equation: Any = None, variable: str = "y") -> dict[str, Any]:
-    at = [equation[0], line(equation[1])] if equation else None
-    return {"variable": variable, "values": values, "equation": at, "parts": parts}
-
-
-ALWAYS, TWICE = "all y. a*y >= 0", "all y. (2*a - b)*y >= 0 and a > 1"
-NOWHERE = [[signs(f"ex a. a >= 0 and a <= 0 and a {sign} 0")] for sign in "<>"]
-HALF = [[signs(f"ex a, b. 2*a - b >= 0 and a > 1 and 2*a - b <= 0 and 2*a - b {sign} 0")] for sign in "><"]
-BOTH = ["1", "-1"]
 NOT_BOTH, EITHER = "(x /= 0 or y /= 0)", "(x = 0 or y = 0)"
 
 
@@ -82,13 +69,6 @@ TRUE_STEPS: dict[str, list[Row]] = {
         ),
         ("ex x. (a + b)*x = c and x^3 < 1", SUM, {"solved": [["x", line("(a + b)*x - c"), None]]}),
     ],
-    THIN: [
-        ("all y. a*y > 1", "false", thin(["0"], [[]])),
-        ("all y. a*y > 1 or y > 3", "false", thin(["5", "0"], [[]])),
-        (ALWAYS, "a = 0", thin(BOTH, NOWHERE, ["a", "a"])),
-        (TWICE, "2*a - b = 0 and (all y. b > 2)", thin(BOTH, HALF, ["a", "2*a - b"])),
-        (TWICE, "2*a - b = 0 and (all y. a > 1)", thin(BOTH, HALF, ["b", "2*a - b"])),
-    ],
     FAR: [
         ("ex x. x^2 > a", "true", far(["true"])),
         ("ex x. x < a", "true", far(["true"])),
@@ -122,25 +102,6 @@ FALSE_STEPS: dict[str, list[Row]] = {
         (BEFORE, CASES, {"solved": LINE["solved"] * 2}),
         (BEFORE, CASES, {"solved": [["x", line("b*x - a"), None]]}),
         (BEFORE, CASES, {"solved": [["y", line("a*x - b"), None]]}),
-    ],
-    THIN: [
-        ("all y. a*y > 1", "false", thin(["1"], [[]])),
-        ("all y. a*y > 1", "false", thin([], [[]])),
-        ("all y. a*y > 1", "true", thin(["0"], [[]])),
-        ("all y. a*y > 1", "a = 0", thin(["0"], [[]])),
-        ("all y. a*y > 1", "false", thin(["0"], [[], []])),
-        (ALWAYS, "a = 0", thin(BOTH, NOWHERE[:1], ["a", "a"])),
-        (ALWAYS, "a = 0", thin(BOTH, [NOWHERE[0], NOWHERE[0]], ["a", "a"])),
-        (ALWAYS, "a = 0", thin(BOTH, [NOWHERE[0], []], ["a", "a"])),
-        (ALWAYS, "a /= 0", thin(BOTH, NOWHERE, ["a", "a"])),
-        (TWICE, "2*a - b = 0", thin(BOTH, HALF, ["a", "2*a - b"])),
-        (ALWAYS, "a = 0", thin(BOTH, NOWHERE, ["a", "a + y"])),
-        (ALWAYS, "a = 0", thin(BOTH, NOWHERE, ["a", "a^2"])),
-        (ALWAYS, "a = 0", thin(BOTH, NOWHERE, ["y", "y"])),
-        ("ex y. a*y > 1", "false", thin(["0"], [[]])),
-        ("all y, x. a*y > x", "false", thin(["0"], [[]])),
-        ("all y. a*y > 1", "false", thin(["0"], [[]], variable="x")),
-        ("all y. (ex x. x > y) and a*y > 1", "false", thin(["0"], [[]])),
     ],
     FAR: [
         ("ex x. x^2 < a", "true", far(["true"])),

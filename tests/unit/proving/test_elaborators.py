@@ -15,7 +15,7 @@ def by(*equations: tuple[str, str]) -> dict[str, Any]:
     return {"equations": [[name, line(text)] for name, text in equations], "theory": NO_LEMMAS}
 
 
-WITNESS, SHEAR, APART = "witness in the parameters", "linear form as a variable", "disjuncts with equations apart"
+WITNESS, APART = "witness in the parameters", "disjuncts with equations apart"
 BLOCK = "ex x. (x = a or x = b) and x > c and (x < 1 or x > 2)"
 FIRST = "(ex x. x > c and (x < 1 or x > 2) and x = a) or (ex x. x > c and (x < 1 or x > 2) and x = b)"
 SECOND = "(ex x. (x = a or x = b) and x > c and x < 1) or (ex x. (x = a or x = b) and x > c and x > 2)"
@@ -85,14 +85,6 @@ TRUE_STEPS: list[Step] = [
     (APART, BLOCK, FIRST, {}, "true"),
     (APART, BLOCK, SECOND, {}, "true"),
     (APART, "ex x. x = a or x = b", "(ex x. x = a) or (ex x. x = b)", {}, "true"),
-    (SHEAR, "ex x. x + a > b and x + a < c", "ex x. x > b and x < c", {"variable": "x", "form": "a + x"}, "true"),
-    (
-        SHEAR,
-        "ex x. a*x + b > c and (a*x + b)^2 < 1",
-        "(ex x. a /= 0 and x > c and x^2 < 1) or (ex x. a = 0 and a*x + b > c and (a*x + b)^2 < 1)",
-        {"variable": "x", "form": "a*x + b"},
-        "true",
-    ),
     (
         POSITION,
         "ex x, y. (3*x - y + 1)^2 < a and (2*y - 1)^3 > b",
@@ -130,8 +122,6 @@ FALSE_STEPS: list[Step] = [
     (POSITION, "ex x. x^2 = 2", "ex x. x^2 = 1", values(("x", {"x": "2"})), "true"),
     (POSITION, "ex x. x > a and x < 0", "ex x. 0 > a and x < 0", values(("x", {"1": "0"})), "true"),
     (POSITION, "ex x, y. x > y and y > a", "ex x, y. x > 0 and y > b", values(("x", {"x": "1", "y": "1"})), "true"),
-    (SHEAR, "ex x. x + a > b and x < c", "ex x. x > b and x < c", {"variable": "x", "form": "a + x"}, "true"),
-    (SHEAR, "ex x. a*x > b and a*x < c", "ex x. x > b and x < c", {"variable": "x", "form": "a*x"}, "true"),
     *((TAKEN, before, after, FREE, given) for before, after, given in VALUE_NOT_TAKEN),
     *((ALONE, before, after, {"variable": "x"}, "true") for before, after in NO_PARABOLA),
 ]

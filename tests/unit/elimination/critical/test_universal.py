@@ -10,7 +10,7 @@ import qe
 from qe.api.input import read_formula
 from qe.elimination.critical.block import Tabulated
 from qe.elimination.critical.method import ConvexUniversal
-from qe.elimination.critical.universal import eliminate_universal, necessary_conditions
+from qe.elimination.critical.universal import eliminate_universal
 from qe.elimination.protocol import Context
 from qe.formula.block import Block
 from qe.formula.build import forall, neg
@@ -169,25 +169,6 @@ def asked(text: str, *parameters: str) -> tuple[tuple[str, ...], Formula, tuple[
     """The variables, the negated body and the parameters, as the functions below take them."""
     given = block(text)
     return given.variables, nnf(neg(given.body)), parameters
-
-
-def test_conditions_that_the_block_implies() -> None:
-    text = "all t. 0 <= t and t <= 2 -> x >= t^2 - t"
-    found = necessary_conditions(*asked(text, "x"))
-    assert found is not None
-    conditions, values = found
-    assert values == tuple(Fraction(k, 4) for k in range(9))
-    assert [holds_at(conditions, {"x": Fraction(k)}) for k in (1, 2, 3)] == [False, True, True]
-
-
-@each(
-    "all t, u. 0 <= t and t <= 1 and 0 <= u and u <= 1 -> x >= t*u",  # two variables
-    "all t. t >= 0 -> x >= -t",  # no upper end
-    "all t. t^2 <= 2 -> x >= t",  # the ends are not linear
-    "all t. 0 <= t and t <= 1 -> x /= t",  # an equation
-)
-def test_no_conditions_elsewhere(text: str) -> None:
-    assert necessary_conditions(*asked(text, "x")) is None
 
 
 def test_the_set_itself() -> None:
