@@ -18,7 +18,6 @@ from qe.exact.sample import Point
 
 _FIRST_BITS = 64
 _MOST_BITS = 8192
-_CLOSE = 30
 _SHORT = 10**6
 Balls = list[arb]
 
@@ -69,13 +68,6 @@ def _end(value: Fraction | RealAlgebraic | None, bits: int, side: int) -> fmpq |
         return None
     bound = value if isinstance(value, Fraction) else value.interval(bits)[side]
     return fmpq(bound.numerator, bound.denominator)
-
-
-def approximation(point: Point) -> tuple[Fraction, ...]:
-    """A rational point close to a point."""
-    with precision(_FIRST_BITS):
-        balls = _coordinates(point, _FIRST_BITS)
-        return tuple(_simplest(x + arb(0, arb(2) ** -_CLOSE)) for x in balls)
 
 
 def nearby(

@@ -11,7 +11,7 @@ from qe.errors import Unable
 from qe.exact.algebraic import RealAlgebraic
 from qe.exact.fibre_stack import isolate_over
 from qe.exact.field import NumberField
-from qe.exact.nearby import approximation, nearby, rational_between
+from qe.exact.nearby import nearby, rational_between
 from qe.exact.remainder import divides
 from qe.exact.ring import Poly, Ring
 from qe.exact.sample import Point
@@ -153,11 +153,6 @@ def test_rational_between(low: object, high: object) -> None:
 def test_rational_between_is_simple() -> None:
     assert rational_between(RealAlgebraic.from_root((11, -8, 1), 1, 2), RealAlgebraic.from_root((-5, 0, 1), 2, 3)) == 2
     assert rational_between(F(5), None) > 5 and rational_between(None, F(-5)) < -5
-
-
-def test_approximation() -> None:
-    x, y = approximation(Point.of(PLANE, [SQRT2, F(1, 3)]))
-    assert abs(x * x - 2) < F(1, 10**7) and abs(y - F(1, 3)) < F(1, 10**7)
 
 
 SPACE = Ring.of(("x", "y", "z"))
