@@ -69,8 +69,10 @@ def _rows(arm: Arm, q: Sequence[Sequence[float]] | Floats) -> Floats:
 
     try:
         result = np.atleast_2d(np.asarray(q, dtype=float))
-    except (TypeError, ValueError):
+    except (TypeError, ValueError, OverflowError):
         raise InputError("joint positions: numbers, rad or mm, expected") from None
+    if not np.isfinite(result).all():
+        raise InputError("joint positions: finite numbers expected")
     if result.ndim != 2 or result.shape[1] != len(arm.joints):
         raise InputError(f"joint positions: rows of {len(arm.joints)} numbers expected, shape {result.shape} found")
     return result

@@ -88,6 +88,10 @@ class Root:
     square: Nested
     _balls: dict[int, Ball] = field(default_factory=dict)
 
+    def __reduce__(self) -> tuple[object, ...]:
+        """Without balls, which cannot be sent to another process."""
+        return Root, (self.square,)
+
     def ball(self, bits: int) -> Ball:
         """A ball around it."""
         if bits not in self._balls:

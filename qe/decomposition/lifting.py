@@ -6,7 +6,6 @@ that decides it; at the last level only the factors that the formula still depen
 
 from __future__ import annotations
 
-import copyreg
 import pickle
 from collections import deque
 from collections.abc import Iterable, Iterator, Mapping, Sequence
@@ -21,7 +20,7 @@ from qe.decomposition.stack import SampledStack, is_nullified, restricted_stack,
 from qe.errors import BudgetExceeded, InternalError
 from qe.exact.lazard import lazard_derivative
 from qe.exact.ring import Poly
-from qe.exact.sample import Fibre, FibreRoot, Point
+from qe.exact.sample import Point
 from qe.formula.openness import is_closed, is_open
 from qe.formula.syntax import Formula
 from qe.options import Budget, Call, Helpers
@@ -305,12 +304,6 @@ def _ambiguous(cells: tuple[Cell, ...]) -> bool:
         if other is not cell and (cell.truth is None or other.truth is not cell.truth):
             return True
     return False
-
-
-# Balls cannot be sent to helpers; they find them again from what the coordinates are.
-copyreg.pickle(Point, lambda p: (Point, (p.ring, p.parent, p.value, p.zeros)))
-copyreg.pickle(Fibre, lambda f: (Fibre, (f.point, f.var, f.source, f.origin)))
-copyreg.pickle(FibreRoot, lambda r: (FibreRoot, (r.fibre, r.index)))
 
 
 @dataclass(frozen=True, slots=True)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import copyreg
 from dataclasses import dataclass
 from fractions import Fraction
 from itertools import pairwise
@@ -182,3 +183,7 @@ def pi_ends(bits: int) -> Ends:
     """An interval around pi."""
     with precision(bits):
         return ends(arb.pi())
+
+
+copyreg.pickle(Ball, lambda b: (Ball.around, (b.ends, 256)))
+copyreg.pickle(Evaluation, lambda e: (Evaluation, (e.point, e._parent)))

@@ -8,6 +8,7 @@ tower of fields (built lazily) prove the zero. No primitive elements.
 
 from __future__ import annotations
 
+import copyreg
 from collections.abc import Iterable
 from fractions import Fraction
 from typing import Any
@@ -465,3 +466,9 @@ def common_fibre(f: Fibre, g: Fibre) -> Fibre | None:
     """The greatest common divisor of two fibres over one point, not both zero, or None if it is constant."""
     common = common_coefficients(f.coefficients, g.coefficients, f.point.vanishes, f.point.watch)
     return None if len(common) == 1 else Fibre(f.point, f.var, common)
+
+
+# Balls cannot be sent to other processes, which find them again from what the coordinates are.
+copyreg.pickle(Point, lambda p: (Point, (p.ring, p.parent, p.value, p.zeros)))
+copyreg.pickle(Fibre, lambda f: (Fibre, (f.point, f.var, f.source, f.origin)))
+copyreg.pickle(FibreRoot, lambda r: (FibreRoot, (r.fibre, r.index)))

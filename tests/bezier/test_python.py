@@ -60,6 +60,12 @@ def test_the_plan_is_that_of_the_file(name: str) -> None:
     assert again == plan and hash(again) == hash(plan) and plan != made and np.array_equal(again(0.25), plan(0.25))
 
 
+def test_a_plan_with_an_arm_under_a_limit() -> None:
+    """It is made in another process, which sends it back."""
+    plan = bezier.plan(**{NAMES.get(key, key): value for key, value in values("ev3_path.toml").items()}, timeout=100)
+    assert plan.certified and pickle.loads(pickle.dumps(plan)) == plan
+
+
 def test_every_key_of_the_file_is_an_argument() -> None:
     arguments = set(inspect.signature(bezier.plan).parameters)
     assert {NAMES.get(key, key) for key in _KEYS} == arguments - {"proofs", "timeout", "memory", "progress"}

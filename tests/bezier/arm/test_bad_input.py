@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import pickle
 from collections.abc import Callable
 from fractions import Fraction
 from itertools import pairwise
@@ -15,6 +16,7 @@ import qe
 from bezier.arm import command
 from bezier.arm.critical import Reason
 from bezier.arm.inverse import solve
+from bezier.arm.inverse_evidence import inverse_certificate
 from bezier.arm.joint_plan import joint_plan
 from bezier.arm.reader import load_arm, read_arm, read_exact
 from bezier.arm.robot import Robot
@@ -50,6 +52,8 @@ WRONG: dict[str, Callable[[], object]] = {
     "two angles": lambda: EV3.positions([[1, 2]]),
     "four angles": lambda: EV3.positions([[1, 2, 3, 4]]),
     "no angles": lambda: EV3.positions([]),
+    "an angle without a float": lambda: EV3.positions([1, 2, 10**5000]),
+    "an endless angle": lambda: EV3.positions([1, 2, float("inf")]),
     "angles as text": lambda: EV3.positions("abc"),  # type: ignore[arg-type]
     "no name": lambda: Robot.load(3),  # type: ignore[arg-type]
     "no such file": lambda: Robot.load(Path("/nowhere/arm.toml")),
@@ -184,6 +188,15 @@ def test_two_branches_merge_and_end_at_an_exact_place() -> None:
     border = float(read_exact("104 + 44*sqrt(2)")) + (radius**2 - (float(read_exact("44*sqrt(2)")) - 1) ** 2) ** 0.5
     assert abs(300 + 200 * float(merging[-1].s) - border) < 1e-9 and x < 0
     assert merging[-1].inverse.count == 1 and merging[-1].inverse.solutions[0].multiple
+
+
+@each("EV3", "SIX")
+def test_answers_go_to_other_processes(name: str) -> None:
+    """Balls cannot: they are made again."""
+    known = EV3.inverse((60, 120, 140)) if name == "EV3" else SIX.inverse_at_pose((150, 50, 200), (1, 0, 0, 0))
+    again = pickle.loads(pickle.dumps(known))
+    assert again.count == 4 and [s.angles for s in again.solutions] == [s.angles for s in known.solutions]
+    assert inverse_certificate(again) == inverse_certificate(known)
 
 
 def test_a_path_along_the_border_is_named() -> None:
