@@ -250,10 +250,8 @@ def _one_line_hook(name: str) -> Callable[[type[BaseException], BaseException, T
 
 
 def is_live(stream: TextIO) -> bool:
-    """Whether a line may be drawn over and over: on a terminal that knows how, unless colours are not wanted.
-
-    ``NO_COLOR`` (no-color.org) is taken as a wish for plain text, without codes of any kind.
-    """
+    """Whether a line may be drawn over and over: on a terminal that knows how, unless plain text is wanted (as
+    ``NO_COLOR`` says)."""
     return stream.isatty() and not os.environ.get("NO_COLOR") and os.environ.get("TERM") not in ("dumb", "unknown")
 
 

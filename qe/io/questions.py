@@ -273,8 +273,8 @@ def _equation(text: str, sought: tuple[str, ...], named: str | None = None) -> t
     others = whole.difference(sought)
     has_x = any(other.endswith("x") for other in others if len(other) < 4)  # x, ax
     name = named or ("x" if has_x else others.pop() if len(others) == 1 else "")
-    misspelt = {other for one in (name, *sought) for other in (one.swapcase(), f"{one}2", f"{one}3")}  # x2 for x^2
-    if name and (meant := whole & misspelt):
+    powers = tuple(f"{one}{power}" for one in (name, *sought) for power in "23")  # mx2 for m*x^2
+    if name and (meant := {other for other in whole if other.swapcase() in (name, *sought) or other.endswith(powers)}):
         raise InputError(f"{', '.join(sorted(meant))}: a power is written x^2, and small letters are not capitals")
     if not name or re.search(r"[<>≤≥≠∃∀]|\b(?:and|or|ex|all|for|if)\b", text):
         return None
@@ -314,7 +314,7 @@ def _quadratic(equation: str, name: str) -> list[str] | None:
 def _counted(text: str, sought: tuple[str, ...]) -> str | None:
     """``f has two positive roots in [0, 1]``; None for another text."""
     counted = _COUNTED.fullmatch(text)
-    if counted is None:
+    if counted is None or re.search(r"\bno\s+(?:real\s+)?(?:distinct|different)", text):  # none, or one alone
         return None
     is_system, whose, many, kinds, several, also, named, *place, opposite = counted.groups()
     if is_system:

@@ -37,7 +37,7 @@ SPOKEN = re.compile(rf"\s*(?:{THERE}|[Ff]or)\s")
 NO_VARIABLES = {
     "exactly": "write exactly 1 x. f",
     **dict.fromkeys(
-        (*SIGNED, "non"),
+        (*SIGNED, "non", "distinct", "different", "numbers"),
         "a condition stands behind the variable, as in exists x > 0",
     ),
     **dict.fromkeys(("integer", "integers", "natural", "rational", "complex"), "all variables are real"),

@@ -70,6 +70,10 @@ from qe.io.questions import plainly
         ("$x^2 + (m-3)x + m = 0$ has two roots. Determine the range of values for $m$.", "m^2 - 10*m > -9"),
         ("Determine m if the function f(x)=x^2+(m-1)x+2-m has two real distinct roots", "(m - 1)^2 > 4*(2 - m)"),
         ("x2 + kx + 1 = 0 has two roots", "x2 + kx + 1 = 0 has two roots"),
+        ("mx2 + 2mx - 3 = 0 has real roots", "mx2 + 2mx - 3 = 0 has real roots"),
+        ("x^2 + k has no distinct roots", "x^2 + k has no distinct roots"),
+        ("there exists x integer > 0 such that x < y", "there exists x integer > 0 such that x < y"),
+        ("there exist distinct numbers x, y with x = y", "there exist distinct numbers x, y with x = y"),
         ("dsolve(y' = y, y)", "dsolve(y' = y, y)"),
         ("x^2 - [x] = 2", "x^2 - [x] = 2"),  # the integer part
         ("solveset(x^2 < 2, x, domain=S.Integers)", "solveset(x^2 < 2, x, domain=S.Integers)"),
