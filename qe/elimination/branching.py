@@ -20,6 +20,7 @@ from itertools import product as all_of
 from math import inf, isfinite, lcm, prod
 
 from qe.elimination.protocol import Context, Outcome, witness_of
+from qe.elimination.samples import Trials
 from qe.elimination.search.linear_forms import FormBounds, LinearForm, Monomial, over_monomials
 from qe.errors import InternalError, Unable
 from qe.exact.number import Values
@@ -61,22 +62,21 @@ class BranchAndBound:
         body, exchanges = in_order(problem.positive)
         ordered = Block.of(problem.asked(exists(problem.variables, body))) if exchanges else problem
         assert ordered is not None
-        tree = _Tree(body, context.budget)
+        tree = _Tree(body, Trials.of(problem.positive), context.budget)
         try:
             point = tree.decide()
         except Unable:
             context.budget.check("branching")
             return None
+        if point is not None:
+            values: Values = {name: point.get(name, Fraction(0)) for name in problem.variables}
+            shown = {"proof": {"certificate": witness_of(problem.dual, values)}}
+            return Outcome(context.log.step(RULE, problem.formula, problem.asked(TRUE), evidence=shown), values)
         if exchanges:
             listed = [[[[*pair] for pair in exchange.items()] for exchange in step] for step in exchanges]
             context.log.step(ORDER, problem.formula, ordered.formula, evidence={"proof": {"exchanges": listed}})
-        answer = problem.asked(FALSE if point is None else TRUE)
-        if point is None:
-            context.log.step(RULE, ordered.formula, answer, evidence={"proof": OnDemand(tree.proof.evidence)})
-            return Outcome(answer)
-        values: Values = {name: point.get(name, Fraction(0)) for name in problem.variables}
-        evidence = {"proof": {"certificate": witness_of(ordered.dual, values)}}
-        return Outcome(context.log.step(RULE, ordered.formula, answer, evidence=evidence), values)
+        evidence = {"proof": OnDemand(tree.proof.evidence)}
+        return Outcome(context.log.step(RULE, ordered.formula, problem.asked(FALSE), evidence=evidence))
 
 
 class _Relaxation(FormBounds):
@@ -165,17 +165,17 @@ class _Proof:
 
 
 class _Tree:
-    """The pieces of the space of a formula."""
+    """The pieces of the space of a formula; ``trials`` look for a point near to what the relaxation takes for one."""
 
-    def __init__(self, body: Formula, budget: Budget) -> None:
-        self.body, self.budget, self.proof = body, budget, _Proof()
+    def __init__(self, body: Formula, trials: Trials | None, budget: Budget) -> None:
+        self.body, self.trials, self.budget, self.proof = body, trials, budget, _Proof()
         self.atoms = [a for a in conjuncts(body) if isinstance(a, Atom) and a.relation is not Relation.NE]
         self.cases = [case for part in conjuncts(body) if (case := _alternatives(part))]
         polys = [a.poly for a in (*self.atoms, *(a for case in self.cases for a in case))]
         self.products = list(dict.fromkeys(t for p in dict.fromkeys(polys) for t in _products(p)))
         self.relaxation = _Relaxation()
 
-    def decide(self) -> dict[str, Fraction] | None:
+    def decide(self) -> Values | None:
         """A point, or None where there is none. Raises ``Unable``."""
         for a in self.atoms:
             self.relaxation.say(((a.poly, 1),), a.relation)
@@ -218,9 +218,7 @@ class _Tree:
                     powers = Counter(poly for poly, _ in distances)
                     self.relaxation.say(tuple(powers.items()), Relation.GE if sign > 0 else Relation.LE)
 
-    def _search(
-        self, ends: dict[Poly, Ends], path: dict[Atom, None], depth: int
-    ) -> dict[str, Fraction] | frozenset[Atom]:
+    def _search(self, ends: dict[Poly, Ends], path: dict[Atom, None], depth: int) -> Values | frozenset[Atom]:
         """A point of a piece, or the literals on the path by which it is empty."""
         self.budget.spend(NODE)
         refuted = self.relaxation.refutation(self.budget)
@@ -228,7 +226,9 @@ class _Tree:
             return self._leaf(refuted, path)
         point, values = self._point()
         if holds_at(self.body, point):
-            return point
+            return {**point}
+        if self.trials and (found := self.trials.near(point.values(), self.budget)) is not None:
+            return found
         if depth > DEEPEST:
             raise Unable("the pieces do not get small enough")
         pieces = self._pieces(ends, point, values)
@@ -236,18 +236,18 @@ class _Tree:
         lemmas, clauses = self.proof.lemmas, self.proof.clauses
         written = len(lemmas), len(clauses)
         for literal, changed, products in pieces:
-            start = len(lemmas), len(clauses)
+            before = len(lemmas), len(clauses)
             mark, forms = self.relaxation.mark(), len(self.relaxation.forms)
             self.relaxation.say(((literal.poly, 1),), literal.relation)
             self._cut(changed, products)
-            found = self._search(changed, {**path, literal: None}, depth + 1)
+            result = self._search(changed, {**path, literal: None}, depth + 1)
             self.relaxation.undo(mark, forms)
-            if isinstance(found, dict):
-                return found
-            if literal not in found:  # what was written for the pieces before is not needed
-                del lemmas[written[0] : start[0]], clauses[written[1] : start[1]]
-                return found
-            needed |= found - {literal}
+            if isinstance(result, dict):
+                return result
+            if literal not in result:  # what was written for the pieces before is not needed
+                del lemmas[written[0] : before[0]], clauses[written[1] : before[1]]
+                return result
+            needed |= result - {literal}
         clauses.append(needed)
         return needed
 

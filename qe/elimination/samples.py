@@ -12,8 +12,9 @@ from __future__ import annotations
 import math
 import random
 from collections import Counter
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from contextlib import suppress
+from dataclasses import dataclass
 from fractions import Fraction
 
 from qe.elimination.protocol import Context, Outcome, witness_of
@@ -30,9 +31,9 @@ from qe.rules.lift import Solve, holds_at
 STARTS, CURVED_FROM, OF_CURVED = 12, 3, 60
 """Points to start from; curved conditions from which on there are more of them."""
 
-RELAXED, SWEEPS_OF_ALL, MARGIN, NEAR = (1.3, 1.7), 60, 1e-6, 1e-3
-"""How far across the border inequalities go, and how often from a point; how far inside they hold for certain, and how
-far outside they may yet be met by round numbers, in proportion to the terms."""
+RELAXED, SWEEPS_OF_FEW, SWEEPS_OF_ALL, MARGIN, NEAR = (1.3, 1.7), 20, 60, 1e-6, 1e-3
+"""How far across the border inequalities go, and how often from a point, with few curved conditions and with more; how
+far inside they hold for certain, and how far outside round numbers may yet meet them, in proportion to the terms."""
 
 TERMS_OF_A_CELL = 20
 """Terms of a formula that are tried at all values of one variable in about the time of a cell."""
@@ -80,18 +81,41 @@ class SampledPoints:
 
 def find(body: Formula, budget: Budget) -> Values | None:
     """A point at which the quantifier-free body holds, or None. Raises ``BudgetExceeded``."""
-    pulled, ring = pulls(body), body.ring
-    if pulled is None or ring is None:
+    trials, rng = Trials.of(body), random.Random(0)
+    if trials is None or body.ring is None:
         return None
-    rng, polys = random.Random(0), list(polynomials(body))
-    box = bounds(body, len(ring.names))
-    units = 1 + sum(poly.term_count() for poly in polys) // TERMS_OF_A_CELL
-    for k in range(OF_CURVED if sum(poly.total_degree > 1 for poly in polys) >= CURVED_FROM else STARTS):
-        point = [_drawn(rng, *limits) for limits in box]
+    box = bounds(body, len(body.ring.names))
+    starts = ([_drawn(rng, *limits) for limits in box] for _ in range(OF_CURVED if trials.many else STARTS))
+    return next(filter(None, (trials.near(start, budget, RELAXED[k % 2]) for k, start in enumerate(starts))), None)
+
+
+@dataclass(frozen=True, slots=True)
+class Trials:
+    """What moves points to where a body holds; ``units`` of work of ten sweeps; whether it has ``many`` curved
+    conditions."""
+
+    body: Formula
+    pulled: Pulls
+    units: int
+    many: bool
+
+    @classmethod
+    def of(cls, body: Formula) -> Trials | None:
+        """Where the body has no quantifiers."""
+        pulled = pulls(body)
+        if pulled is None:
+            return None
+        polys = [*polynomials(body)]
+        many = sum(poly.total_degree > 1 for poly in polys) >= CURVED_FROM
+        return cls(body, pulled, 1 + sum(poly.term_count() for poly in polys) // TERMS_OF_A_CELL, many)
+
+    def near(self, start: Iterable[float | Fraction], budget: Budget, far: float = RELAXED[1]) -> Values | None:
+        """Where a trial gets to from here, if the body holds there. Raises ``BudgetExceeded``."""
         with suppress(OverflowError):
-            if relaxed(pulled, point, RELAXED[k % 2], budget, units) and (at := _confirmed(body, pulled, point)):
-                return at
-    return None
+            point = [*map(float, start)]
+            if relaxed(self.pulled, point, far, budget, self.units, SWEEPS_OF_ALL if self.many else SWEEPS_OF_FEW):
+                return _confirmed(self.body, self.pulled, point)
+        return None
 
 
 def _confirmed(body: Formula, conditions: Pulls, point: Sequence[float]) -> Values | None:
@@ -160,11 +184,13 @@ def pulls(body: Formula) -> Pulls | None:
     return None
 
 
-def relaxed(conditions: Pulls, point: list[float], far: float, budget: Budget, units: int) -> bool:
+def relaxed(
+    conditions: Pulls, point: list[float], far: float, budget: Budget, units: int, sweeps: int = SWEEPS_OF_ALL
+) -> bool:
     """Whether the point is near to meeting the conditions, once it was moved along the slopes of those that it did not
     meet, inequalities ``far`` times as long as they say that the border is away. Raises ``OverflowError``."""
     worst = math.inf
-    for sweep in range(SWEEPS_OF_ALL):
+    for sweep in range(sweeps):
         if not worst:
             break
         if not sweep % 10:

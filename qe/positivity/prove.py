@@ -11,7 +11,7 @@ from qe.positivity.identity import Positive
 from qe.positivity.ordered import ordered_differences
 from qe.positivity.samples import may_be_positive
 
-MOST_VARIABLES, MOST_DEGREE, MOST_TERMS = 6, 16, 200
+MOST_VARIABLES, MOST_DEGREE, MOST_TERMS = 6, 16, 500
 FEWEST_VARIABLES, LOWEST_DEGREE = 4, 12
 """Below these, decomposition decides sooner than the libraries of a semidefinite program are loaded."""
 

@@ -49,7 +49,12 @@ def test_what_is_refuted_is_proved(text: str) -> None:
     assert qe.verify(answer.certificate).accepted
 
 
-@each(packing(2, "0"), f"ex a, b, c, d. {BOXED} and a*b + c*d > 1/2 and b*d < 0", "all x, y. x*y < 3 or x < 0 or x > 2")
+@each(
+    packing(2, "0"),
+    packing(6, "0"),
+    f"ex a, b, c, d. {BOXED} and a*b + c*d > 1/2 and b*d < 0",
+    "all x, y. x*y < 3 or x < 0 or x > 2",
+)
 def test_a_point_holds(text: str) -> None:
     block = Block.of(read_formula(text))
     outcome = branched(text)

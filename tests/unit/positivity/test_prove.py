@@ -3,6 +3,7 @@
 import builtins
 import random
 from fractions import Fraction
+from itertools import permutations
 from math import prod
 
 import pytest
@@ -61,6 +62,54 @@ def test_binomial_squares(text: str, orthant: frozenset[int], strict: bool) -> N
     proof = binomial_squares(poly, orthant)
     assert proof is not None and proof.strict is strict
     check(poly, proof, orthant)
+
+
+def exact(poly: Poly, proof: Positive, orthant: frozenset[int]) -> bool:
+    """Whether a single identity gives the polynomial as a sum of squares times variables of the orthant."""
+    (identity,), gens = proof.identities, {poly.ring.gen(i) for i in orthant}
+    total = poly.ring.constant(0)
+    for c, powers in identity.terms:
+        total = total + prod((base**e for base, e in powers), start=poly.ring.constant(c))
+    signs = all(c > 0 and all(e % 2 == 0 or b in gens for b, e in powers) for c, powers in identity.terms[1:])
+    return not total and identity.terms[0][0] < 0 and identity.terms[0][1] == ((poly, 1),) and signs
+
+
+@each(3, 4, 5, 6)
+def test_the_arithmetic_mean_is_at_least_the_geometric_one(n: int) -> None:
+    ring = Ring.of(tuple(f"x{i}" for i in range(n)))
+    gens, everywhere = [ring.gen(i) for i in range(n)], frozenset(range(n))
+    poly = sum(gens, ring.constant(0)) ** n - prod(gens, start=ring.constant(n**n))
+    proof = binomial_squares(poly, everywhere)
+    assert proof is not None and exact(poly, proof, everywhere)
+    assert binomial_squares(poly - prod(gens, start=ring.constant(1)), everywhere) is None
+
+
+def test_exchanges_that_do_not_keep_the_monomials_of_squares_are_not_used() -> None:
+    """Where there are too many monomials some are left out, and what is left may be less symmetric."""
+    text = """8*(a^4 + b^4 + c^4 + a^3*b + a*b^3 + a^3*c + b^3*c + a*c^3 + b*c^3 + a^3*d + b^3*d + c^3*d)
+        - 4*(a^2*b*c + a*b^2*c + a*b*c^2) - a*b*c*d + a^2*b*d + a*b^2*d + a^2*c*d + b^2*c*d + a*c^2*d + b*c^2*d
+        + a*b*d^2 + a*c*d^2 + b*c*d^2"""
+    poly = read_polynomial(text)[0]
+    everywhere = frozenset(range(4))
+    proof = binomial_squares(poly, everywhere)
+    assert proof is None or exact(poly, proof, everywhere)
+
+
+@settings(max_examples=60, deadline=None)
+@given(st.randoms(use_true_random=False))
+def test_squares_of_symmetric_polynomials_add_up(rng: random.Random) -> None:
+    """Monomials with all that exchanges of the first variables make of them, times signs at random."""
+    size = rng.choice((3, 4, 4, 5))
+    ring, degree = Ring.of(tuple(f"x{i}" for i in range(size))), rng.choice((3, 4))
+    moved, poly = rng.choice((size, size - 1)), ring.constant(0)
+    for c in [rng.randint(-4, 9) for _ in range(4)]:
+        places = [rng.randrange(size) for _ in range(degree)]
+        orders = permutations(range(moved))
+        images = {tuple(sorted(order[k] if k < moved else k for k in places)) for order in orders}
+        poly += sum((prod(map(ring.gen, image), start=ring.constant(c)) for image in images), ring.constant(0))
+    everywhere = frozenset(range(size))
+    proof = None if poly.is_constant else binomial_squares(poly, everywhere)
+    assert proof is None or exact(poly, proof, everywhere)
 
 
 @each(
@@ -130,13 +179,7 @@ def test_squares_times_products_of_variables(text: str) -> None:
     everywhere = frozenset(range(poly.ring.size))
     proof = sum_of_squares(poly, everywhere)
     assert proof is not None
-    (identity,) = proof.identities
-    total, gens = poly.ring.constant(0), {poly.ring.gen(i) for i in everywhere}
-    for c, powers in identity.terms:
-        total = total + prod((base**e for base, e in powers), start=poly.ring.constant(c))
-    assert not total
-    for c, powers in identity.terms[1:]:
-        assert c > 0 and all(e % 2 == 0 or base in gens for base, e in powers)
+    assert exact(poly, proof, everywhere)
     assert sum_of_squares(poly - poly.ring.gen(0) ** poly.total_degree, everywhere) is None
 
 
