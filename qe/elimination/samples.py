@@ -27,6 +27,7 @@ from qe.formula.syntax import TRUE, And, Atom, Formula, Or, Relation
 from qe.formula.traverse import conjuncts, polynomials
 from qe.options import Budget, Options
 from qe.rules.lift import Solve, holds_at
+from qe.rules.ranges import Number, ranges_of
 
 STARTS, CURVED_FROM, OF_CURVED = 12, 3, 60
 """Points to start from; curved conditions from which on there are more of them."""
@@ -37,9 +38,6 @@ far inside they hold for certain, and how far outside round numbers may yet meet
 
 TERMS_OF_A_CELL = 20
 """Terms of a formula that are tried at all values of one variable in about the time of a cell."""
-
-SWEEPS = 3
-"""Times that the bounds of variables are put into each other."""
 
 FAR = 1e3
 """Where a variable has no bound, points are drawn up to here, mostly close to zero."""
@@ -53,7 +51,7 @@ Condition = tuple[Atom, Terms, list[tuple[int, Terms]]]
 Pulls = Callable[[Sequence[float]], list[Condition]]
 """The conditions that count at a point."""
 
-Box = Sequence[tuple[float, float]]
+Box = Sequence[tuple[Number, Number]]
 
 
 class SampledPoints:
@@ -234,32 +232,15 @@ def _terms(poly: Poly, relation: Relation = Relation.GT) -> Terms:
 
 
 def bounds(body: Formula, count: int) -> Box:
-    """For each variable of the ring an interval that the linear conjuncts allow, each seen alone, a few times.
-
-    Conditions with numbers beyond floating point are passed over.
-    """
-    box = [(-math.inf, math.inf)] * count
-    linear: list[tuple[dict[int, float], float]] = []
-    for part in conjuncts(body):
-        if isinstance(part, Atom) and part.relation not in (Relation.EQ, Relation.NE) and part.poly.total_degree == 1:
-            sign = 1 if part.relation in (Relation.GT, Relation.GE) else -1
-            try:
-                terms = [(powers, sign * float(c)) for powers, c in part.poly.sparse_terms()]
-            except OverflowError:  # longer than a float
-                continue
-            rest = sum(c for powers, c in terms if not powers)
-            linear.append(({powers[0][0]: c for powers, c in terms if powers}, rest))
-    for _ in range(SWEEPS):
-        for leads, rest in linear:
-            highest = {i: max(c * box[i][0], c * box[i][1]) for i, c in leads.items()}
-            for i, c in leads.items():
-                end = -(rest + sum(most for k, most in highest.items() if k != i)) / c  # c*x >= c*end
-                low, high = box[i]
-                box[i] = (max(low, end), high) if c > 0 else (low, min(high, end))
-    return box
+    """For each variable of the ring an interval that the conjuncts allow, about."""
+    conditions = [a for a in conjuncts(body) if isinstance(a, Atom) and a.relation is not Relation.NE]
+    ranges = dict[int, tuple[Number, Number]]()
+    with suppress(OverflowError):  # numbers beyond floating point
+        ranges = ranges_of(conditions, rough=True)
+    return [ranges.get(i, (-math.inf, math.inf)) for i in range(count)]
 
 
-def _drawn(rng: random.Random, low: float, high: float) -> float:
+def _drawn(rng: random.Random, low: Number, high: Number) -> float:
     """A point of an interval, where it is long or has no end mostly close to its other end, or to zero."""
     far = math.pow(FAR, rng.random()) * rng.random()
     if math.isinf(low) and math.isinf(high):

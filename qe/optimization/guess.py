@@ -93,7 +93,7 @@ def stationary_points(goal: Goal, optimum: Number, limits: Limits = LIMITS) -> t
 def _stationary_points(zeros: NearZeros, system: tuple[list[Poly], list[Atom]], variables: int) -> Iterator[Point]:
     """What is found from several starts, each as soon as it is known."""
     (first, *_), sides = system
-    rng, box = random.Random(0), bounds(conj(sides), first.ring.size)
+    box, rng = bounds(conj(s for s in sides if s.poly.total_degree == 1), first.ring.size), random.Random(0)
     for k in range(STARTS):
         drawn = [(low, high, rng.gauss(0, 1)) for low, high in box]
         start: Sequence[Any] = [min(x if isinf(low) else low + abs(x), high) for low, high, x in drawn]

@@ -55,9 +55,9 @@ def excluded_by_ranges(variables: tuple[str, ...], body: Formula, context: Block
     return Found(StepKind.RANGES, str(parts[failing]), NEVER, {"bounds": bounds, "fails": failing})
 
 
-def ranges_of(atoms: Sequence[Atom]) -> dict[int, tuple[Number, Number]]:
-    """The ranges of variables, by their places, that the theorem gives."""
-    search = _Search(_conditions(enumerate(atoms)))
+def ranges_of(atoms: Sequence[Atom], *, rough: bool = False) -> dict[int, tuple[Number, Number]]:
+    """The ranges of variables, by their places, that the theorem gives; in floating point, ``rough`` ones."""
+    search = (_Rough if rough else _Search)(_conditions(enumerate(atoms)))
     search.failing()
     return {i: (search.low.get(i, -inf), search.high.get(i, inf)) for i in {*search.low, *search.high}}
 
