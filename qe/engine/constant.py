@@ -3,19 +3,16 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from contextlib import suppress
-from fractions import Fraction
 
 from qe.elimination.protocol import Context
-from qe.elimination.samples import pulls, relaxed
+from qe.elimination.samples import Trials
 from qe.engine.redundant import COARSE, FINE, FIRST, Points, Start
 from qe.exact.watch import IDLE
 from qe.formula.build import exists
-from qe.formula.evaluate import holds_at
 from qe.formula.features import length
 from qe.formula.normal import nnf
-from qe.formula.syntax import FALSE, TRUE, Atom, Formula
-from qe.formula.traverse import atoms, bound_variables, conjuncts
+from qe.formula.syntax import FALSE, TRUE, Formula
+from qe.formula.traverse import atoms, bound_variables
 from qe.options import Budget, Stage
 from qe.proof.step import Nested
 
@@ -24,9 +21,6 @@ DEGREES = {1: 40, 2: 8, 3: 3, 4: 2}
 
 MANY = 20
 """The closure of a question in more variables is not asked for: a chain of 300 differences took minutes."""
-
-BEYOND = 1.7
-"""How far conditions pull a point: so many times as far as to where they would hold if they were linear."""
 
 SETTLE_WORK = 2000
 """Units of work for the question whether an answer is constant."""
@@ -76,7 +70,7 @@ def constant_value(
     quantified the question leaves a freedom of order that the answer has lost (the existential closure).
     """
     names = formula.free
-    if not names:
+    if not names or formula.ring is None:
         return None
     listed = list(atoms(formula))
     cheap = len(listed) <= ATOMS and max(a.poly.total_degree for a in listed) <= DEGREES.get(len(names), 1)
@@ -87,51 +81,17 @@ def constant_value(
     always = bool(points.holding(nnf(formula)))
     if always and (not cheap or points.holding(fails)):
         return None
-    if holds_at(formula, _middle(formula, names)) is not always:
-        return None
-    if not always and (reached := _pulled(formula, names)) is not None and holds_at(formula, reached):
-        return None
-    if points.fill(COARSE + FINE) and points.holding(fails if always else nnf(formula)):
-        return None
     exception = fails if always else nnf(formula)
+    trials = Trials.of(exception) if cheap else None
+    if trials is not None and trials.near([0] * formula.ring.size, Budget()) is not None:
+        return None
+    if points.fill(COARSE + FINE) and points.holding(exception):
+        return None
     if question is not None and not always and (not cheap or length(question)[1] < length(formula)[1]):
         exception = question
     if is_satisfiable(exists(exception.free, exception)):
         return None
     return TRUE if always else FALSE
-
-
-def _middle(formula: Formula, names: tuple[str, ...]) -> dict[str, Fraction]:
-    """The middle of the box around the vertices of the parabolas on the axes: for balls, of their centres.
-
-    Balls that meet mostly meet there, where the small coordinates above seldom are.
-    """
-    vertices: dict[str, list[Fraction]] = {name: [] for name in names}
-    for atom in atoms(formula):
-        ring = atom.poly.ring
-        slopes: dict[int, dict[int, int]] = {}
-        for exponents, coefficient in atom.poly.terms():
-            if sum(exponents) in (1, 2) and max(exponents) == sum(exponents):
-                slopes.setdefault(exponents.index(sum(exponents)), {})[sum(exponents)] = int(coefficient)
-        for index, slope in slopes.items():
-            if 2 in slope:
-                vertices[ring.names[index]].append(Fraction(-slope.get(1, 0), 2 * slope[2]))
-    return {name: (min(v) + max(v)) / 2 if v else Fraction(0) for name, v in vertices.items()}
-
-
-def _pulled(formula: Formula, names: tuple[str, ...]) -> dict[str, Fraction] | None:
-    """Where the conditions of a conjunction pull the point in the middle, about; None for other formulas.
-
-    In a convex set with interior points this mostly ends after a few rounds; what it ends at is only a proposal.
-    """
-    conditions, start, ring = pulls(formula), _middle(formula, names), formula.ring
-    if conditions is None or ring is None or not all(isinstance(part, Atom) for part in conjuncts(formula)):
-        return None
-    with suppress(OverflowError, ValueError):  # beyond the range of floats
-        point = [float(start.get(name, 0)) for name in ring.names]
-        relaxed(conditions, point, BEYOND, Budget(), 0)
-        return {name: Fraction(point[ring.index[name]]).limit_denominator() for name in names}
-    return None
 
 
 def _closes(question: Formula) -> bool:

@@ -8,12 +8,12 @@ ones. Which c fit is a question of linear inequalities; no floating-point number
 
 from __future__ import annotations
 
-from collections.abc import Hashable, Iterable, Iterator, Sequence
+from collections.abc import Callable, Hashable, Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import lru_cache
 from itertools import chain, combinations, pairwise
-from operator import sub
+from operator import itemgetter, sub
 
 from qe.exact.linear_bounds import LinearBounds
 from qe.exact.ring import Poly
@@ -37,7 +37,7 @@ def binomial_squares(poly: Poly, orthant: frozenset[int]) -> Positive | None:
     if any(c < 0 and sum(e) == poly.total_degree * max(doubled) and _is_vertex(e, terms) for e, c in terms.items()):
         return None
     points = _points(e for e, c in terms.items() if c > 0 and _is_even(e))
-    problem = _Problem(poly, orthant, terms, points, _groups(poly, orthant, {*points}))
+    problem = _Problem(poly, orthant, terms, points, _groups(terms, points))
     zero = (0,) * poly.ring.size
     return (problem.solved(strict=True) if terms.get(zero, 0) > 0 else None) or problem.solved(strict=False)
 
@@ -48,16 +48,15 @@ def _is_vertex(exponents: Exponents, terms: Iterable[Exponents]) -> bool:
     return len(own) == 1 and all(other[own[0]] <= exponents[own[0]] for other in terms)
 
 
-def _groups(poly: Poly, orthant: frozenset[int], points: set[Exponents]) -> list[list[int]]:
-    """Variables of which any two can change places in the polynomial, the conditions and the monomials of squares."""
-    ring, groups = poly.ring, list[list[int]]()
-    for i in range(ring.size):
+def _groups(terms: dict[Exponents, int], points: list[Exponents]) -> list[list[int]]:
+    """Variables of which any two can change places in the polynomial and among the monomials of squares."""
+    size, groups = len(next(iter(terms))), list[list[int]]()
+    for i in range(size):
         for group in groups:
-            places = [*range(ring.size)]
+            places = [*range(size)]
             places[i], places[group[0]] = group[0], i
-            moved = poly.compose({k: ring.gen(place) for k, place in enumerate(places) if k != place})
-            alike = (i in orthant) == (group[0] in orthant) and moved == poly
-            if alike and points == {tuple(e[k] for k in places) for e in points}:
+            moved: Callable[[Exponents], Exponents] = itemgetter(*places)
+            if {moved(e): c for e, c in terms.items()} == terms and {*map(moved, points)} == {*points}:
                 group.append(i)
                 break
         else:
