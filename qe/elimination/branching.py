@@ -19,7 +19,7 @@ from itertools import chain, pairwise
 from itertools import product as all_of
 from math import inf, isfinite, lcm, prod
 
-from qe.elimination.protocol import Context, Outcome, witness_of
+from qe.elimination.protocol import Context, Outcome, shown
 from qe.elimination.samples import Trials
 from qe.elimination.search.linear_forms import FormBounds, LinearForm, Monomial, over_monomials
 from qe.errors import InternalError, Unable
@@ -27,7 +27,7 @@ from qe.exact.number import Values
 from qe.exact.ring import Poly
 from qe.formula.block import Block
 from qe.formula.build import exists
-from qe.formula.syntax import FALSE, TRUE, Atom, Formula, Or, Relation
+from qe.formula.syntax import FALSE, Atom, Formula, Or, Relation
 from qe.formula.traverse import conjuncts
 from qe.options import Budget, Options
 from qe.proof.on_demand import Evidence, OnDemand
@@ -69,9 +69,7 @@ class BranchAndBound:
             context.budget.check("branching")
             return None
         if point is not None:
-            values: Values = {name: point.get(name, Fraction(0)) for name in problem.variables}
-            shown = {"proof": {"certificate": witness_of(problem.dual, values)}}
-            return Outcome(context.log.step(RULE, problem.formula, problem.asked(TRUE), evidence=shown), values)
+            return shown(problem, point, context, RULE)
         if exchanges:
             listed = [[[[*pair] for pair in exchange.items()] for exchange in step] for step in exchanges]
             context.log.step(ORDER, problem.formula, ordered.formula, evidence={"proof": {"exchanges": listed}})
@@ -186,8 +184,7 @@ class _Tree:
             below, above = zip(*(_interval(f, ranges) for ranges in known))
             ends[f] = self._proved(f, below, -1), self._proved(f, above, 1)
         self._cut(ends, self.products)
-        found = self._search(ends, {}, 0)
-        return found if isinstance(found, dict) else None
+        return found if isinstance(found := self._search(ends, {}, 0), dict) else None
 
     def _proved(self, f: Poly, bounds: Sequence[Number], side: int) -> Number:
         """The first of these bounds, or 0 where it is better, of which the relaxation shows that it holds."""

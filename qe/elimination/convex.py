@@ -3,16 +3,15 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from fractions import Fraction
 from functools import partial
 
 from qe.convex.linear_point import LinearContradiction, linear_point
 from qe.convex.optimum import Decision, decide
 from qe.convex.system import NotConvex
-from qe.elimination.protocol import Context, Outcome, certified_by, witness_of
+from qe.elimination.protocol import Context, Outcome, certified_by, shown
 from qe.exact.number import Number
 from qe.formula.block import Block
-from qe.formula.syntax import FALSE, TRUE, Exists, Formula
+from qe.formula.syntax import FALSE, Exists, Formula
 from qe.options import Budget, Options
 from qe.proof.certificate import Certificate
 
@@ -44,9 +43,7 @@ class ConvexOptimisation:
                 answer, refuted = problem.asked(FALSE), {"proof": {"certificate": found.certificate}}
                 context.log.step("convex", problem.formula, answer, evidence=refuted)
                 return Outcome(answer, certificate=found.certificate)
-        values = {name: known.get(name, Fraction(0)) for name in dual.variables}
-        evidence = certified_by(partial(witness_of, dual, values))
-        return Outcome(context.log.step("convex", problem.formula, problem.asked(TRUE), evidence=evidence), values)
+        return shown(problem, known, context, "convex")
 
 
 def _by_farkas(problem: Block, answer: Formula, point: LinearContradiction) -> Certificate:

@@ -4,10 +4,11 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
+from fractions import Fraction
 from functools import partial
 from typing import Protocol
 
-from qe.exact.number import Values
+from qe.exact.number import Number, Values
 from qe.exact.ring import Ring
 from qe.formula.block import Block
 from qe.formula.build import convert
@@ -113,3 +114,10 @@ class Method(Protocol):
     def suits(self, problem: Block, options: Options) -> str | None: ...
 
     def run(self, problem: Block, context: Context) -> Outcome | None: ...
+
+
+def shown(problem: Block, known: Mapping[str, Number], context: Context, rule: str) -> Outcome:
+    """What a point says at which the body of the existential dual holds."""
+    values = {name: known.get(name, Fraction(0)) for name in problem.variables}
+    evidence = certified_by(partial(witness_of, problem.dual, values))
+    return Outcome(context.log.step(rule, problem.formula, problem.asked(TRUE), evidence=evidence), values)

@@ -17,13 +17,13 @@ from contextlib import suppress
 from dataclasses import dataclass
 from fractions import Fraction
 
-from qe.elimination.protocol import Context, Outcome, witness_of
+from qe.elimination.protocol import Context, Outcome, shown
 from qe.errors import Unable
 from qe.exact.algebraic import real_roots
 from qe.exact.number import Values, simplest
 from qe.exact.poly import Poly
 from qe.formula.block import Block
-from qe.formula.syntax import TRUE, And, Atom, Formula, Or, Relation
+from qe.formula.syntax import And, Atom, Formula, Or, Relation
 from qe.formula.traverse import conjuncts, polynomials
 from qe.options import Budget, Options
 from qe.rules.lift import Solve, holds_at
@@ -32,7 +32,7 @@ from qe.rules.ranges import Number, ranges_of
 STARTS, CURVED_FROM, OF_CURVED = 12, 3, 60
 """Points to start from; curved conditions from which on there are more of them."""
 
-RELAXED, SWEEPS_OF_FEW, SWEEPS_OF_ALL, MARGIN, NEAR = (1.3, 1.7), 20, 60, 1e-6, 1e-3
+RELAXED, SWEEPS_OF_FEW, SWEEPS_OF_ALL, MARGIN, NEAR = 1.6, 20, 60, 1e-6, 1e-3
 """How far across the border inequalities go, and how often from a point, with few curved conditions and with more; how
 far inside they hold for certain, and how far outside round numbers may yet meet them, in proportion to the terms."""
 
@@ -51,8 +51,6 @@ Condition = tuple[Atom, Terms, list[tuple[int, Terms]]]
 Pulls = Callable[[Sequence[float]], list[Condition]]
 """The conditions that count at a point."""
 
-Box = Sequence[tuple[Number, Number]]
-
 
 class SampledPoints:
     """Sentences in several variables that are true at a point which trials find."""
@@ -60,21 +58,13 @@ class SampledPoints:
     name = "samples"
 
     def suits(self, problem: Block, options: Options) -> str | None:
-        """Sentences of one block without root atoms."""
-        if not problem.is_flat or problem.free or pulls(problem.positive) is None:
-            return None
-        return "conditions that pull a point"
+        """Sentences of one block."""
+        return None if not problem.is_flat or problem.free else "conditions that pull a point"
 
     def run(self, problem: Block, context: Context) -> Outcome | None:
         """A point that was verified; None says nothing."""
-        dual = problem.dual
-        known = find(dual.body, context.budget)
-        if known is None:
-            return None
-        values: Values = {name: known.get(name, Fraction(0)) for name in dual.variables}
-        evidence = {"proof": {"certificate": witness_of(dual, values)}}
-        answer = context.log.step("point or multipliers", problem.formula, problem.asked(TRUE), evidence=evidence)
-        return Outcome(answer, values)
+        known = find(problem.positive, context.budget)
+        return None if known is None else shown(problem, known, context, "point or multipliers")
 
 
 def find(body: Formula, budget: Budget) -> Values | None:
@@ -82,9 +72,9 @@ def find(body: Formula, budget: Budget) -> Values | None:
     trials, rng = Trials.of(body), random.Random(0)
     if trials is None or body.ring is None:
         return None
-    box = bounds(body, len(body.ring.names))
+    box = bounds(body, body.ring.size)
     starts = ([_drawn(rng, *limits) for limits in box] for _ in range(OF_CURVED if trials.many else STARTS))
-    return next(filter(None, (trials.near(start, budget, RELAXED[k % 2]) for k, start in enumerate(starts))), None)
+    return next(filter(None, (trials.near(start, budget) for start in starts)), None)
 
 
 @dataclass(frozen=True, slots=True)
@@ -107,11 +97,11 @@ class Trials:
         many = sum(poly.total_degree > 1 for poly in polys) >= CURVED_FROM
         return cls(body, pulled, 1 + sum(poly.term_count() for poly in polys) // TERMS_OF_A_CELL, many)
 
-    def near(self, start: Iterable[float | Fraction], budget: Budget, far: float = RELAXED[1]) -> Values | None:
+    def near(self, start: Iterable[float | Fraction], budget: Budget) -> Values | None:
         """Where a trial gets to from here, if the body holds there. Raises ``BudgetExceeded``."""
         with suppress(OverflowError):
             point = [*map(float, start)]
-            if relaxed(self.pulled, point, far, budget, self.units, SWEEPS_OF_ALL if self.many else SWEEPS_OF_FEW):
+            if relaxed(self.pulled, point, budget, self.units, SWEEPS_OF_ALL if self.many else SWEEPS_OF_FEW):
                 return _confirmed(self.body, self.pulled, point)
         return None
 
@@ -182,11 +172,9 @@ def pulls(body: Formula) -> Pulls | None:
     return None
 
 
-def relaxed(
-    conditions: Pulls, point: list[float], far: float, budget: Budget, units: int, sweeps: int = SWEEPS_OF_ALL
-) -> bool:
+def relaxed(conditions: Pulls, point: list[float], budget: Budget, units: int, sweeps: int) -> bool:
     """Whether the point is near to meeting the conditions, once it was moved along the slopes of those that it did not
-    meet, inequalities ``far`` times as long as they say that the border is away. Raises ``OverflowError``."""
+    meet, inequalities ``RELAXED`` times as long as they say that the border is away. Raises ``OverflowError``."""
     worst = math.inf
     for sweep in range(sweeps):
         if not worst:
@@ -201,7 +189,7 @@ def relaxed(
                 worst = max(worst, amiss)
                 slope = [(i, _value(terms, point)) for i, terms in condition[2]]
                 steep = sum([d * d for _, d in slope])
-                step = away if condition[0].relation is Relation.EQ else far * away
+                step = away if condition[0].relation is Relation.EQ else RELAXED * away
                 for i, d in slope:
                     point[i] += step * d / steep if steep > 0 else 0.0
     return worst < NEAR
@@ -231,7 +219,7 @@ def _terms(poly: Poly, relation: Relation = Relation.GT) -> Terms:
     return [(sign * float(c), powers) for powers, c in poly.sparse_terms()]
 
 
-def bounds(body: Formula, count: int) -> Box:
+def bounds(body: Formula, count: int) -> list[tuple[Number, Number]]:
     """For each variable of the ring an interval that the conjuncts allow, about."""
     conditions = [a for a in conjuncts(body) if isinstance(a, Atom) and a.relation is not Relation.NE]
     ranges = dict[int, tuple[Number, Number]]()
@@ -243,12 +231,10 @@ def bounds(body: Formula, count: int) -> Box:
 def _drawn(rng: random.Random, low: Number, high: Number) -> float:
     """A point of an interval, where it is long or has no end mostly close to its other end, or to zero."""
     far = math.pow(FAR, rng.random()) * rng.random()
-    if math.isinf(low) and math.isinf(high):
-        return rng.choice((-far, far))
+    if math.isinf(low):
+        return rng.choice((-far, far)) if math.isinf(high) else high - far
     if math.isinf(high):
         return low + far
-    if math.isinf(low):
-        return high - far
     return low + (high - low) * math.pow(rng.random(), rng.choice((1, 1, 3)))
 
 

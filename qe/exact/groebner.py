@@ -176,7 +176,8 @@ def groebner_basis(
     chosen = tuple(used if variables is None else variables)
     if not set(used) <= set(chosen):
         raise InternalError("a variable of the ideal is missing from the variable order")
-    scales = _weights(heavy, len(chosen)) if heavy else tuple(weights) or (1,) * len(chosen)
+    heaviest = (_HEAVY[k % len(_HEAVY)] + 2 * (k // len(_HEAVY)) for k in range(heavy))
+    scales = (*heaviest, *(tuple(weights) if not heavy and weights else (1,) * (len(chosen) - heavy)))
     names = (*(f"v{k}" for k in range(len(chosen))), "tag")
     context = fmpz_mpoly_ctx.get(names, order.value)
     found = _found([_inside(p, chosen, scales, context) for p in given], context, limits, order)
@@ -215,10 +216,6 @@ def _by_primes(polys: list[fmpz_mpoly], context: fmpz_mpoly_ctx) -> list[fmpz_mp
     except Unable:
         return None
     return [context.from_dict({(*e, 0): c for e, c in g.items()}) for g in elements]
-
-
-def _weights(heavy: int, size: int) -> tuple[int, ...]:
-    return tuple(_HEAVY[k % len(_HEAVY)] + 2 * (k // len(_HEAVY)) for k in range(heavy)) + (1,) * (size - heavy)
 
 
 def _is_block(basis: Basis, heavy: int) -> bool:

@@ -21,7 +21,7 @@ def irreducible_factors(c: list[int]) -> list[list[int]]:
     if not c[0]:
         return [[0, 1], *(irreducible_factors(c[1:]))]
     possible, tried = -1, list[tuple[int, int, list[tuple[int, list[int]]]]]()
-    for p in _primes():
+    for p in (p for p in count(3, 2) if all(p % d for d in range(3, isqrt(p) + 1, 2))):  # the odd primes
         f = reduced(c, p)
         if len(f) <= n or len(common(f, [k * d for k, d in enumerate(f)][1:], p)) > 1:
             continue
@@ -40,10 +40,6 @@ def irreducible_factors(c: list[int]) -> list[list[int]]:
     factors = [g for degree, product in parts for g in _of_degree(product, degree, p)]
     bound = 2 * abs(lead) * (1 << n) * (isqrt(sum(d * d for d in c)) + 1)  # Mignotte
     return _recombined(c, *_lifted(c, factors, p, bound))
-
-
-def _primes() -> Iterator[int]:
-    return (p for p in count(3, 2) if all(p % d for d in range(3, isqrt(p) + 1, 2)))
 
 
 def _by_degree(f: list[int], p: int) -> Iterator[tuple[int, list[int]]]:

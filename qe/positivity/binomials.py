@@ -117,9 +117,8 @@ class _Problem:
                     return None
                 continue
             form = bounds.form(row)
-            if bounds.at_least(form, wanted, strict=False, reason=exponents) is not None:
-                return None
-            if bounds.at_most(form, wanted, strict=False, reason=exponents) is not None:
+            sides = (bounds.at_least, bounds.at_most)
+            if any(bounded(form, wanted, strict=False, reason=exponents) is not None for bounded in sides):
                 return None
         if bounds.conflict(lambda: None) is not None:
             return None
