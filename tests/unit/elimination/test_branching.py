@@ -51,7 +51,7 @@ def test_what_is_refuted_is_proved(text: str) -> None:
 
 @each(
     packing(2, "0"),
-    packing(6, "0"),
+    packing(5, "0"),
     f"ex a, b, c, d. {BOXED} and a*b + c*d > 1/2 and b*d < 0",
     "all x, y. x*y < 3 or x < 0 or x > 2",
 )
