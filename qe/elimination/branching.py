@@ -37,9 +37,9 @@ from qe.rules.ranges import Number, ranges_of
 
 RULE, ORDER = "branch and bound", "exchangeable variables in order"
 
-NODE, ENTRIES, DEEPEST = 5, 200, 60
+NODE, ENTRIES, DEEPEST, TRIED = 5, 200, 60, 3
 """Units of work of a piece beside the simplex method, of which so many entries are one; cuts on the way to a piece, at
-most."""
+most, and after how many of them there is a trial."""
 
 Powers = tuple[tuple[Poly, int], ...]
 Identity = tuple[tuple[Fraction, Powers], ...]
@@ -224,7 +224,7 @@ class _Tree:
         point, values = self._point()
         if holds_at(self.body, point):
             return {**point}
-        if self.trials and (found := self.trials.near(point.values(), self.budget)) is not None:
+        if depth % TRIED == 0 and self.trials and (found := self.trials.near(point.values(), self.budget)) is not None:
             return found
         if depth > DEEPEST:
             raise Unable("the pieces do not get small enough")

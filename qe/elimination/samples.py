@@ -79,8 +79,7 @@ def find(body: Formula, budget: Budget) -> Values | None:
 
 @dataclass(frozen=True, slots=True)
 class Trials:
-    """What moves points to where a body holds; ``units`` of work of ten sweeps; whether it has ``many`` curved
-    conditions."""
+    """What moves points to where a body holds; ``units`` of work of ten sweeps; ``many`` curved conditions or few."""
 
     body: Formula
     pulled: Pulls

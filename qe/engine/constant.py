@@ -82,8 +82,7 @@ def constant_value(
     if always and (not cheap or points.holding(fails)):
         return None
     exception = fails if always else nnf(formula)
-    trials = Trials.of(exception) if cheap else None
-    if trials is not None and trials.near([0] * formula.ring.size, Budget()) is not None:
+    if cheap and (trials := Trials.of(exception)) and trials.near([0] * formula.ring.size, Budget()) is not None:
         return None
     if points.fill(COARSE + FINE) and points.holding(exception):
         return None

@@ -237,15 +237,20 @@ class _Run:
         """What the first attempt gives that comes to an end; None if there is none."""
         last: Unable | None = None
         spare: Spare | None = None
+        vain = set[str]()  # of what a closer look shows that it is not for this problem: more work does not change that
         for attempt, method, reason in attempts(scope, problem, self.options):
+            if attempt.method in vain:
+                continue
             mark, outcome = self.log.mark(), None
             try:
                 outcome = method.run(problem, self.context(self.budget.part(SPARE if spare else attempt.work)))
-                if outcome is not None and attempt.keep(outcome, problem):
+                if outcome is None:
+                    vain.add(attempt.method)
+                elif attempt.keep(outcome, problem):
                     if outcome.back is None:
                         self.log.choice(method.name, problem.variables, reason, mark)
                     return self.completed(outcome, problem, attempt, method.name)
-                if outcome is not None:
+                else:
                     self.log.switch(method.name, "its answer is long, or leaves something to others")
             except Unable as error:
                 self.budget.check("trying one method after the other")

@@ -201,7 +201,7 @@ STRATEGY: tuple[Attempt, ...] = (
     Attempt(Scope.ASKED, "search", on.hopeless_cases),
     Attempt(Scope.ASKED, "search", on.many_cases, SHORTCUT),
     Attempt(Scope.ASKED, "convex", on.closed_in_many_variables, SHORTCUT),
-    Attempt(Scope.ASKED, "branching", on.curved_between_bounds, 4 * GLANCE),
+    Attempt(Scope.ASKED, "branching", on.curved_between_bounds, 3 * GLANCE),
     Attempt(Scope.ASKED, "samples", on.curved_in_many_variables, PROBE),
     Attempt(Scope.ASKED, "cgs", on.equations_bind_a_sentence, SHORTCUT, complete),
     Attempt(Scope.ASKED, "critical, convex universal", on.curved_in_the_block, 2 * SHORTCUT),
