@@ -1,10 +1,15 @@
 """Open cells of convex sets, and the walls between true and false ones."""
 
 from fractions import Fraction as F
+from itertools import pairwise
+
+from hypothesis import given, settings
+from hypothesis import strategies as st
 
 from qe.decomposition.operators.brown_mccallum import BROWN_MCCALLUM
 from qe.decomposition.projection import factor_lists
 from qe.elimination.critical.open_cells import OpenCells, true_run
+from qe.exact.fibre_stack import isolate_over
 from qe.exact.ring import Poly, Ring
 from qe.exact.sample import Point
 from qe.options import Budget
@@ -54,3 +59,27 @@ def test_a_run_is_found_from_any_side_with_few_tests() -> None:
             assert true_run(samples, F(near), test) == range(start, stop) or start == stop
             away = min((abs(k - near) for k in range(start, stop)), default=64)
             assert len(asked) <= 2 * away + 14
+
+
+NUMBERS = st.integers(-3, 3)
+HALVES = st.tuples(NUMBERS, NUMBERS, st.integers(0, 5)).filter(lambda h: h[0] or h[1])
+
+
+@given(st.lists(HALVES, min_size=1, max_size=5), NUMBERS)
+@settings(max_examples=60, deadline=None)
+def test_no_wall_is_lost_in_a_stack_between_the_ends(halves: list[tuple[int, int, int]], near: int) -> None:
+    """Lines of which none is a wall make many stacks, of which bisection needs few."""
+    bounds = [X * X + Y * Y - 16, *(a * X + b * Y - c for a, b, c in halves)]
+
+    def holds(values: tuple[F, ...]) -> bool:
+        return all(f.sign_at(values) <= 0 for f in bounds)
+
+    found = explored([*bounds, *(2 * X - k for k in range(-9, 10, 3))], holds, (F(near), F(0)))
+    walls = set[Poly]()
+    first = isolate_over(Point(PLANE), found.levels[0])
+    for k, x in enumerate(first.samples):
+        stack = isolate_over(first.sample(2 * k), found.levels[1])
+        truths = [holds((x, y)) for y in stack.samples]
+        changes = (stack.sections[i] for i, (a, b) in enumerate(pairwise(truths)) if a is not b)
+        walls |= {found.levels[1][j] for section in changes for j in section.members}
+    assert found.walls() == walls

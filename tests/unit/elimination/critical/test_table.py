@@ -9,12 +9,16 @@ from hypothesis import strategies as st
 from qe.decomposition.operators.brown_mccallum import BROWN_MCCALLUM
 from qe.decomposition.operators.lazard import LAZARD
 from qe.decomposition.projection import factor_lists
+from qe.elimination.critical.block import Tabulated
+from qe.elimination.critical.method import _described as described
 from qe.elimination.critical.table import Shape, TableBuilder
 from qe.errors import BudgetExceeded, NotWellOriented
 from qe.exact.ring import Poly, Ring
 from qe.exact.sample import Point
+from qe.formula.evaluate import holds_at
+from qe.formula.syntax import TRUE
 from qe.options import Budget
-from qe.proof.cells import Cell
+from qe.proof.cells import Cell, CellTable
 from tests.tables import each
 
 RING = Ring.of(("x", "y"))
@@ -114,3 +118,24 @@ def test_a_convex_set_is_the_same_cell_by_cell(
     assert root.stack is not None
     if any(t for cell in root.stack.cells[::2] for t in leaves(cell)[::2]):
         assert leaves(root) == every and asked < 2 * needed
+
+
+def test_a_plane_tells_two_stretches_of_one_sign_apart() -> None:
+    """Between the middle two of four conjugate roots the quartic has the sign that it has outside."""
+    quartic, planes = X**4 - 10 * X**2 + 1, list[Poly]()
+
+    def table(_: frozenset[int], more: frozenset[Poly]) -> CellTable:
+        planes.extend(more)
+        levels = factor_lists([quartic, *more], 1, BROWN_MCCALLUM, Budget())
+        given = (levels, BROWN_MCCALLUM, frozenset((quartic,)), Shape.CONVEX)
+        inside = TableBuilder(*given, lambda point, _: point.sign(quartic) >= 0 and point.sign(X * X - 1) < 0, Budget())
+        root = inside.run(Point(RING))
+        factors = tuple(tuple(f.convert(Ring.of(("x",))) for f in level) for level in levels)
+        return CellTable(("x",), ("",), TRUE, BROWN_MCCALLUM.proof, factors, root)
+
+    found = described(Tabulated(table(frozenset(), frozenset()), table, frozenset()))
+    assert planes and all(
+        abs(plane.evaluate((0,)) / plane.leading(0).constant_value()) > Fraction(3, 10) for plane in planes
+    )
+    for k in range(-16, 17):
+        assert holds_at(found, {"x": Fraction(k, 4)}) is (abs(k) <= 1)
