@@ -20,6 +20,7 @@ from qe.formula.build import conj, exists
 from qe.formula.syntax import TRUE
 from qe.io import formats
 from qe.io.formats import Format
+from qe.io.scripts import asks_satisfiability
 from qe.options import Budget
 from qe.processes.channel import Channel
 from qe.processes.limits import Limits
@@ -64,7 +65,7 @@ def _partial_reply(answer: Answer, partial: Partial, request: Request, output: F
 
 def decide(channel: Channel, request: Request) -> Reply:
     """``qe decide``: a sentence is true or false; an SMT-LIB script, whose constants are existential, sat or unsat."""
-    script = request.source.format is Format.SMTLIB
+    script = request.source.format is Format.SMTLIB or asks_satisfiability(request.source.text)
     formula, keywords = request.read(channel)
     stated = under(formula, TRUE, keywords.pop("assuming"), Limits(), numbers=True)
     if script:

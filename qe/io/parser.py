@@ -57,7 +57,9 @@ def applied(text: str, token: Token, arguments: list[s.Term]) -> s.Term:
         if not least <= len(arguments) <= most:
             raise SyntaxFailure(f"{name} takes {least} argument{'s' if least > 1 else ''}", at)
         return s.Apply(function, arguments, at)
-    if (operation := OPERATIONS.get(name)) is not None and (len(arguments) == 2 or name in ("Plus", "Times")):
+    if (operation := OPERATIONS.get(name)) is not None and (
+        len(arguments) == 2 or name in ("Plus", "Times") or (name == "Rational" and len(arguments) == 1)
+    ):
         made: s.Term = reduce(lambda left, right: operation(left, right, at), arguments)
         return made
     if name not in ("root", "Root"):

@@ -139,13 +139,14 @@ _BOUND = re.compile(
 )
 """The variables of a quantifier."""
 _CALL = re.compile(
-    r"(?:\w+(?:\.|:-))?(?:SolveTools\[)?((?:n|f|lin|nonlin)?solve\w*|reduce_\w+|prove|QuantifierElimination|SemiAlgebraic)\]?\((.*)\)\s*[;:]?",
+    r"(?:\w+(?:\.|:-))*(?:SolveTools\[)?((?:n|f|lin|nonlin)?solve\w*|reduce_\w+|prove|bool|qepcad|QuantifierElimination|SemiAlgebraic"
+    r"|(?<=:-)simplify)\]?\((.*)\)\s*[;:]?",
     re.DOTALL,
 )
 _ASSUMES = re.compile(r"\s*(Assuming|(?:Full)?Simplify|Refine)\[(.*)\]\s*", re.DOTALL)
 _WITHIN = re.compile(r"(?:domain\s*=\s*)?Interval(?:\.([LR]?)open)?\(\s*([^,()]+),\s*([^,()]+)\)")
 """An interval of SymPy."""
-_DOMAIN = re.compile(r"(?:domain\s*=\s*)?S?\.?Reals|real\b|\w+\s*=\s*(?:True|False|real)")
+_DOMAIN = re.compile(r"(?:domain\s*=\s*)?S?\.?Reals|real\b|\w+\s*=\s*(?:True|False|real|Q\.real\(\w+\)|'[^']*')")
 _NAMES = re.compile(rf"(?:{LISTED}|[\[({{]\s*(?:{LISTED}(?:\s*,\s*{LISTED})*)?\s*[\])}}])")
 
 _GOAL = re.compile(
@@ -459,6 +460,11 @@ def _at_comma(text: str) -> tuple[str, str]:
 # --- other systems ----------------------------------------------------------------------------------------
 def _called(command: str, inside: str) -> Question:
     """``solve([f, g], [x, y])`` of SymPy and Maple, ``solve(f, g)`` and ``prove(f)`` of Z3."""
+    inside = re.sub(
+        r"&([AE])\s*\[([\w\s,]*)\]\s*,",
+        lambda q: f"{'all' if q[1] == 'A' else 'ex'} {q[2].replace(',', ' ')}.",
+        inside,
+    )
     given = [re.sub(r"^symbols?\s*=\s*", "", part) for part in split(inside) if not _DOMAIN.fullmatch(part)]
     within = _WITHIN.fullmatch(given[-1]) if len(given) > 2 else None
     given = given[:-1] if within else given
@@ -471,7 +477,7 @@ def _called(command: str, inside: str) -> Question:
         left, right = "[" if within[1] in (None, "R") else "(", "]" if within[1] in (None, "L") else ")"
         related = _RELATED.search(formula) or re.match(r"(?:Eq|Ne|[GL][te]|And|Or)\(", formula)
         formula = f"{formula if related else f'{formula} = 0'} and {names[0]} in {left}{within[2]}, {within[3]}{right}"
-    return Question(_closed(formula) if command == "prove" else formula, tuple(names))
+    return Question(_closed(formula) if command in ("prove", "bool") else formula, tuple(names))
 
 
 def _typed(text: str) -> str:

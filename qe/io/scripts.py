@@ -1,7 +1,8 @@
 """Scripts of other systems as the one command that they end in, with definitions in the place of their names.
 
 ``eq = x^2 + y^2; Reduce[eq < 1, x]`` of Mathematica, ``x = Real('x')`` and ``s.add(x > 0)`` of Z3, ``x = symbols('x')``
-of SymPy, ``f := x^2; solve(f > 1, x);`` of Maple, Giac and Redlog. No statement is passed over unread.
+of SymPy, ``assume(x > 0)`` of Sage, ``f := x^2; solve(f > 1, x);`` of Maple, Giac and Redlog. No statement is passed
+over unread.
 """
 
 from __future__ import annotations
@@ -13,31 +14,39 @@ from qe.errors import InputError
 from qe.io.text_words import LONGEST, SIGNED, split
 from qe.spelling import WORD
 
-_BEGINS = re.compile(
-    r"(?:\s|#[^\n]*\n)*(?:from\s+[\w.]+\s+import\b|import\s+\w|(?:\w+\s*,\s*)*\w+\s*=\s*(?:\w+\.)?(?:Real|Int|Bool|[sS]ymbol)s?\("
-    r"|var\(|Clear(?:All)?\[|load_package\b|restart\b|with\(|\w+\s*:=(?=.*[;\n].|\s*\w[\w:-]*\()|\w+\s*=(?![=>])[^;]*;.*\b[A-Z][a-z]+[A-Za-z]*\[)",
-    re.DOTALL,
-)
+_PROMPT = re.compile(r"^(?:>>>|\.\.\.|In \[\d+\]:|sage:) (.*)", re.MULTILINE)
 _COMMENT = re.compile(r"#[^\n]*|\(\*.*?\*\)", re.DOTALL)
+_SATISFIABLE = r"(?:print\s*\(?\s*)?\w+\.check\(\)\s*\)?"
 _IDLE = re.compile(
-    r"from\s.*|import\s.*|Clear(?:All)?\[.*\]|init_printing\(.*\)|(?:load_package|rlset|on|off)\b.*|restart|with\(.*\)"
-    r"|\w+\s*=\s*(?:\w+\.)?(?:Simple)?Solver\(\)|(?:print\s*\(?\s*)?\w+\.(?:check|model)\(\)\s*\)?"
+    r"from\s+[\w.]+\s+import\b.*|import\s+\w.*|(?:Clear(?:All)?|Remove)\[.*\]|init_printing\(.*\)|restart|with\(\w*\)"
+    rf"|(?:load_package|rlset|on|off)\s.*|\w+\s*=\s*(?:\w+\.)?(?:Simple)?Solver\(\)|{_SATISFIABLE}"
+    r"|(?:print\s*\(?\s*)?\w+\.model\(\)\s*\)?|\w+\s*=\s*qepcad_formula"
 )
 """Statements that say nothing about the question."""
 _DECLARED = re.compile(r"(?:([\w\s,]+?)=\s*)?(?:\w+\.)?(Real|Int|Bool|[sS]ymbol|var)s?\(\s*(['\"])(.*?)\3\s*(.*)\)")
 _SAID = re.compile(rf"(?:({WORD})\s*:?=(?![=>])\s*|(print)\s*(?=\())(.+)", re.DOTALL)
 """A definition, or what is printed."""
-_ADDED = re.compile(r"\w+\.(?:add|append|insert)\((.*)\)", re.DOTALL)
+_FUNCTION = re.compile(r"(\w+)\[((?:\s*\w+_\s*,?)+)\]\s*:?=\s*(.+)", re.DOTALL)
+_ADDED = re.compile(r"(?:\w+\.(?:add|append|insert)|(assume))\((.*)\)", re.DOTALL)
 _CALL = re.compile(r"[A-Za-z][\w.:\-]*[(\[]")
+_PROVED = re.compile(r"(?:prove|bool)\((.*)\)", re.DOTALL)
 _ASSUMED = re.compile(r"(\w+)\s*=\s*(?:True|1)|domain\s*=\s*['\"](\w+)['\"]")
+_OF_QEPCAD = {"and_": "And", "or_": "Or", "not_": "Not", "exists": "Exists", "forall": "ForAll", "implies": "Implies"}
+
+
+def asks_satisfiability(text: str) -> bool:
+    """Whether a script asks if what it adds can hold, as ``s.check()`` of Z3 does."""
+    return any(re.fullmatch(_SATISFIABLE, statement) for statement in _statements(text))
 
 
 def last_command(text: str) -> str:
     """The command that a script ends in; another text as it is. Raises ``InputError`` for what has no meaning here."""
-    typed = "\n".join(re.findall(r"^(?:>>>|\.\.\.) (.*)", text, re.MULTILINE)) or text
-    if len(text) > LONGEST or not _BEGINS.match(typed):
+    typed = "\n".join(_PROMPT.findall(text)) or text
+    statements = _statements(text)
+    if not _is_script(statements):
         return typed
     values: dict[str, str] = {}
+    functions: dict[str, tuple[list[str], str]] = {}
     idle = set[str]()
     known: list[str] = []
     conditions: list[str] = []
@@ -45,30 +54,63 @@ def last_command(text: str) -> str:
 
     def put(part: str) -> str:
         idle.difference_update(re.findall(WORD, part))
-        return re.sub(WORD, lambda word: values.get(word[0], word[0]), part)
+        part = re.sub(WORD, lambda word: values.get(word[0], word[0]), part)
+        for name, (parameters, body) in functions.items():
+            while call := re.search(rf"\b{name}(?=\[)", part):
+                inside = next(split(part[call.end() :], "]"))
+                given = dict(zip(parameters, split(inside[1:]), strict=False))
+                if len(given) < len(parameters):
+                    raise InputError(f"{shown(inside)}: a value for each of {', '.join(parameters)} expected")
+                value = re.sub(WORD, lambda word: f"({given[word[0]]})" if word[0] in given else word[0], body)  # noqa: B023
+                part = f"{part[: call.start()]}({value}){part[call.end() + len(inside) + 1 :]}"
+        return part
 
-    statements = [statement.strip(" \t\r:") for statement in split(_COMMENT.sub("", typed), ";\n")]
-    statements = [statement for statement in statements if statement and not _IDLE.fullmatch(statement)]
     for statement in statements:
+        if _IDLE.fullmatch(statement):
+            continue
         if question:
             raise InputError(f"{shown(question)}: one question at the end of a script expected")
-        declared, added, said = (kind.fullmatch(statement) for kind in (_DECLARED, _ADDED, _SAID))
+        declared, function, added, said = (kind.fullmatch(statement) for kind in (_DECLARED, _FUNCTION, _ADDED, _SAID))
         if declared:
             names, signs = _variables(declared)
             values, known = values | names, known + signs
+        elif function:
+            functions[function[1]] = re.findall(r"(\w+)_", function[2]), put(function[3])
         elif added:
-            conditions.append(put(added[1]))
+            (known if added[1] else conditions).extend(map(put, split(added[2]) if added[1] else [added[2]]))
         elif said and said[1] and not (statement == statements[-1] and _CALL.match(said[3])):
             value = put(said[3])
             values[said[1]] = value if value[0] in "[{" else f"({value})"
             idle.add(said[1])
         else:
             question = put(said[3][1:-1] if said and said[2] else said[3] if said else statement)
+            question = question[1:-1] if question[0] == "(" and question in values.values() else question
     if bool(question) is bool(conditions) or idle:
         unused = f", and a use of {', '.join(sorted(idle))}" if idle else ""
         raise InputError(f"one question at the end of a script expected{unused}")
     question = question or f"{{{', '.join(conditions)}}}"
+    if known and (proved := _PROVED.fullmatch(question)):
+        return f"prove(Implies({' && '.join(known)}, {proved[1]}))"
     return f"Assuming[{' && '.join(known)}, {question}]" if known else question
+
+
+def _statements(text: str) -> list[str]:
+    """The statements of a text that may be a script, without comments; none of one that nobody typed."""
+    if len(text) > LONGEST:
+        return []
+    typed = _COMMENT.sub("", "\n".join(_PROMPT.findall(text)) or text)
+    typed = re.sub(r"\b\w+\.(and_|or_|not_|exists|forall|implies)(?=\()", lambda word: _OF_QEPCAD[word[1]], typed)
+    return [part for statement in split(typed, ";\n") if (part := statement.strip(" \t\r:"))]
+
+
+def _is_script(statements: list[str]) -> bool:
+    if any(kind.fullmatch(part) for part in statements for kind in (_IDLE, _DECLARED, _ADDED, _FUNCTION)):
+        return True
+    *defined, last = statements or [""]
+    command = _SAID.sub(r"\3", last)
+    if any(re.match(r"\w+\s*:=", part) for part in statements):
+        return bool(defined or _CALL.match(command))
+    return any(_SAID.fullmatch(part) for part in defined) and re.match(r"[A-Z][A-Za-z]+\[", command) is not None
 
 
 def _variables(declared: re.Match[str]) -> tuple[dict[str, str], list[str]]:

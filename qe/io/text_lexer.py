@@ -52,9 +52,9 @@ END }
 COMMA , ;
 DOT . :
 AND /\ ∧ & && \[And] &and &and;
-OR \/ ∨ \[Or] &or;
+OR \/ ∨ \[Or] &or &or;
 NOT ~ ¬ ! \[Not]
-IMPLIES -> ==> → ⇒ ⟹ ⟶ => \[Implies]
+IMPLIES -> ==> → ⇒ ⟹ ⟶ => \[Implies] &implies
 IFF <-> <=> <==> ↔ ⇔ ⟺ ⟷ \[Equivalent]
 TRUE ⊤
 FALSE ⊥
@@ -99,7 +99,7 @@ _TOKEN = re.compile(
     r"|(?P<NUMBER>(?:[0-9]+(?:\.[0-9]*)?|\.[0-9]+)(?:[eE][+-]?[0-9]+)?|[¼-¾⅐-⅞↉])"
     rf"|(?P<QUOTED>{QUOTED})"
     r"|(?P<RAISED>⁻?[⁰¹²³⁴-⁹]+)"
-    r"|(?P<OPERATOR>&(?:and|or)\b;?|<==>|<->|<=>|==>|=>|->|=<|=/=|=!=|<=|>=|==|/=|!=|~=|<>|/\\|\\/|\\(?=\s*\{)|&&|\*\*|\\\[\w+\]"
+    r"|(?P<OPERATOR>&(?:and|or|implies)\b;?|<==>|<->|<=>|==>|=>|->|=<|=/=|=!=|<=|>=|==|/=|!=|~=|<>|/\\|\\/|\\(?=\s*\{)|&&|\*\*|\\\[\w+\]"
     r"|[-+*/^()=<>~,;.:∃∀∧∨¬→↔⇒⇔⟹⟺⟶⟷⊤⊥≤≥⩽⩾≠−·×⋅÷⁄∕∈∞√∛∪∩∖&|!{}]|\[|\])"
 )
 _MULTIPLE = (
@@ -338,7 +338,7 @@ class State:
             return (factor and self.word != "0") or self.end == at
         if self.last == "NAME":
             return factor and self.end < at and self.is_factor(self.word)
-        return factor and self.last == "CLOSE" and self.closed
+        return factor and self.last in ("CLOSE", "RIGHT") and self.closed
 
     def is_factor(self, name: str) -> bool:
         """Whether a name is surely no word of a language."""

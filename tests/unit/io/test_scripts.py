@@ -26,6 +26,20 @@ from tests.tables import each
     ("[ a comment ]\n(x,y)\n1\n(Ey)[ x = y^2 ].\nfinish", "x >= 0"),
     (">>> var('w',real=1)\nw\n>>> solve(abs(w) +\n... 6>12)\nOr(w < -6, w > 6)", "w^2 > 36"),
     ("a = 1 + b; Reduce[2 a > 0]", "2*(1 + b) > 0"),
+    (
+        "f[x_, a_] := x^2 - a; g[x_] = 3 f[x, 2]\nb = f[y, x]\nReduce[g[x + 1] < Sqrt[4] f[x, 1] && b > 0]",
+        "3*((x+1)^2 - 2) < 2*(x^2 - 1) and y^2 > x",
+    ),
+    (
+        "var('x')\nvar('a')\nqf = qepcad_formula\nf = ((Rational(1/2)*x) < a)\ng = qf.and_(f, x > 1)\nh = qepcad("
+        "qf.exists(x, g), memcells='1000')\nprint(h)",
+        "a > 1/2",
+    ),
+    ("In [1]: x = symbols('x', real=True)\nIn [2]: sympy.solvers.solve(abs(1/(x-1)) > 1)", "0 < x < 2 and x /= 1"),
+    ("s, t = var('s, t')\nassume(s > 0, t > s)\nprint(bool(t > 0))", "all s, t. s > 0 and t > s -> t > 0"),
+    ("solve((3*x + 1)/(x + 4) >= 1, x, assume=Q.real(x), relational=False)", "x < -4 or 2*x >= 3"),
+    ("restart;\nRealDomain:-simplify(forall([a, b], a > b implies a > 0));", "false"),
+    ("restart; # no logic\nA:-B:-QuantifierElimination(&A [b, a], (a > b) &implies ((a > 0) &or (b < 0)));", "true"),
 )
 def test_what_is_read(typed: str, meant: str) -> None:
     assert qe.equivalent(formats.read(typed), meant)
@@ -36,7 +50,8 @@ def test_what_is_read(typed: str, meant: str) -> None:
     ("x = symbols('x', integer=True)\nsolve(x > 2)", "integer=True cannot be asked for"),
     ("x, y = Reals('x')\nsolve(x > 2)", "a name for each variable"),
     ("f := x^2; g := x; solve(f > 1)", "and a use of g"),
-    ("f[x_] := x^2\ny := 1\nReduce[f[2] > y]", ""),
+    ("f[x_, y_] := x^2\nReduce[f[2] > y]", "a value for each of x, y"),
+    ("x = var('x')\nassume(x > 0)\nbool(x > 1)\nbool(x > 2)", "one question at the end"),
     ("x = Real('x')\nfor k in range(3):\n    solve(x > k)", "one question at the end"),
     ("from z3 import *\ns.add(x > 1)\nsolve(x < 0)", "one question at the end"),
     ("from z3 import *", "one question at the end"),
