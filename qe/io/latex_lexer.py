@@ -51,7 +51,7 @@ _SPACES = frozenset((",", ";", ":", "!", " ", "quad", "qquad", "thinspace"))
 _SKIPPED = frozenset(("left", "right", "big", "Big", "bigl", "bigr", "Bigl", "Bigr", "displaystyle", "limits", "\\"))
 _FONTS = frozenset(("mathrm", "mathit", "mathbf", "operatorname", "textrm", "textit"))
 _WORDS = {"and": "AND", "or": "OR", "not": "NOT", "implies": "IMPLIES", "iff": "IFF", "if": "IF"}
-_LETTERS = re.compile(
+LETTERS = re.compile(
     r"(?:var)?(?:epsilon|theta|pi|rho|sigma|phi)|alpha|beta|gamma|delta|zeta|eta|iota|kappa|lambda|mu|nu|xi|omicron|tau"
     r"|upsilon|chi|psi|omega|Gamma|Delta|Theta|Lambda|Xi|Pi|Sigma|Upsilon|Phi|Psi|Omega|ell|hbar|imath|jmath|aleph"
 )
@@ -76,7 +76,7 @@ _MARK = re.compile(r"(?<!/)\\(?:[A-Za-z]|[},;!|])|\$|[_^]\{")
 _BACKQUOTED = re.compile(QUOTED)
 _GAP = r"(?:\s|\\[,;:! ]|\\q?quad\b)*"
 _NEXT = re.compile(
-    rf"{_GAP}(?:[^\W\d_]|\\(?:{_LETTERS.pattern})\b|\\(?:{'|'.join(_FONTS)})\{{[^{{}}]*\}})"
+    rf"{_GAP}(?:[^\W\d_]|\\(?:{LETTERS.pattern})\b|\\(?:{'|'.join(_FONTS)})\{{[^{{}}]*\}})"
     rf"(?:_(?:\{{(?:\w+|\\mathrm\{{\d+\}})\}}|\w))?'*{_GAP}"
     r"(?:[,.:(\[]|\\(?:in|colon|exists|forall|mid)\b|(?:[<>]|\\(?:le|ge)\w*)[^:\\]*(?::|\\(?:[;: ]|colon|q?quad))|$)"
 )
@@ -200,7 +200,7 @@ class _Source:
         elif name == "\\" and self.rows and self.state.last in OPERAND_ENDS:
             if not re.match(r"\s*\\end\b", self.text[after:]):
                 yield from self.put("AND", "and", at)
-        elif _LETTERS.fullmatch(name):
+        elif LETTERS.fullmatch(name):
             after = yield from self.name(name, at, after)
         elif name not in _SKIPPED and name not in "()[]":
             raise SyntaxFailure(f"\\{visible(name)} cannot be read in LaTeX", at)

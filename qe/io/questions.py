@@ -1,141 +1,189 @@
 """Questions in words, and commands of other systems, as formulas: ``for which m does x^2 = m have two solutions?`` is
 ``exactly two x. x^2 = m``, and ``let a, b be positive reals; prove that f`` is ``all a, b. a, b > 0 -> f``.
 
-What is read is noted for the caller; a text that is not clear stays as it is.
+A sentence is read as words of a small vocabulary with formulas between them; a word that is not in it belongs to a
+formula, which cannot be read then. What is read is noted for the caller; a text that is not clear stays as it is.
 """
 
 from __future__ import annotations
 
 import re
+from collections.abc import Iterable
 from itertools import combinations
 
 from qe.errors import InputError
 from qe.exact.ring import Poly
 from qe.formula.build import atom
 from qe.formula.relation import Relation
+from qe.io.latex_lexer import LETTERS, as_text, is_latex
 from qe.io.parser import TERM, parsed
 from qe.io.scripts import last_command
 from qe.io.surface import FUNCTIONS
 from qe.io.text_errors import Failing
 from qe.io.text_words import COUNTS, LISTED, NO_VARIABLES, QUANTITY, SIGNED, THERE, Question, split
-from qe.spelling import KEYWORDS, WORD, unquoted
-
-NO_NAMES = {*NO_VARIABLES, "for", "every", "any", "reals", "numbers", "such", "that", "with", "there", "is", "are"}
-"""Words of sentences that are no variables."""
+from qe.io.tokens import kinds
+from qe.spelling import KEYWORDS, QUOTED, WORD, is_product, unquoted
 
 LONGEST = 1000
 """Longer texts are no questions in words."""
 
-_LIST = rf"{LISTED}(?:\s*(?:,|and)\s*{LISTED})*"
-_SHOW = r"(?:(?:prove|show|verify|check|decide|determine)\s+(?:that|whether|if)|is\s+it\s+true\s+that)"
-_PROVE = r"(?:prove|show|verify)(?:\s+that)?"
-_VALUES = (
-    r"(?:(?:(?:two|all|exact|possible|real|the|set|range|values?|constants?|that|of)\s+)*(?:values?|range|constants?)\s+"
-    r"(?:(?:of|for|that|the|constant)\s+)*)"
+_LEAST = "minimum minimize minimise minimal minimized minimised min least smallest lowest small"
+_GREATEST = "maximum maximize maximise maximal maximized maximised max greatest largest highest large"
+_NOUNS = (
+    "equation equations polynomial function expression quantity inequality inequalities cubic line curve circle"
+    " parabola ellipse hyperbola graph"
 )
+_VOCABULARY = kinds("""
+find find determine calculate
+prove prove show verify
+has has have having
+root root solution zero
+roots roots zeros zeroes solutions
+meet meet meets intersect intersects cut cuts
+touch touch touches
+points point points
+greater greater larger bigger
+less less smaller
+lie lie lies lying
+in in inside
+distinct distinct different unequal
+double double equal repeated
+numbers number numbers reals quantity quantities
+constant constant constants
+be be been
+such such so
+satisfy satisfy satisfies satisfying
+condition condition conditions constraint constraints
+sides sides sidelengths
+signs sign signs
+values value values
+exists exist exists
+holds hold holds
+, the an its real also following your
+""") | {
+    word: word
+    for words in (
+        "and or not for all every any some if then let suppose given assume is are it of on at to that which what where"
+        " when with under over do does will can may must only exactly least most no both two one three four five six"
+        " infinitely many but finitely almost connected solve system quadratic opposite between than other always valid"
+        " true false range set possible take exact there as tangent triangle side lengths product sum here note we"
+        " check decide whether by order satisfied straight subject giving answer answers surd form decimal places"
+        " interval open closed solvable disprove denote",
+        *SIGNED, _NOUNS, _LEAST, _GREATEST,
+    )
+    for word in words.split()
+}  # fmt: skip
+"""The words of questions, with the one that stands for several, or the comma for those that say nothing: all variables
+are real."""
+_SYNTAX = KEYWORDS | {
+    *("for", "such", "that", "there", "with", "at", "no", "infinitely", "many", "but", "finitely", "almost"),
+    *("connected", *COUNTS),
+}
+"""Those that formulas may have, too."""
+_DESCRIBED = "|".join((*SIGNED, *f"{_NOUNS} {_LEAST} {_GREATEST}".split()))
+_PIECE = re.compile(
+    r"(?P<ARTICLE>[aA](?=\s+(?:real|roots?|solutions?|zero|double|repeated|tangent|constant|straight|triangle|quadratic|non"
+    rf"|unique|{_DESCRIBED})\b))|(?P<WORD>(?<![\\\w])[^\W\d_]{{2,}}(?![\w(\[^_']))|{QUOTED}|\w+|\s+|.",
+    re.DOTALL,
+)
+_F = r"§\d+"
 _SIGN = rf"(?:{'|'.join(SIGNED)})"
-_STOCK = (
-    (r"(?:prove\s+or\s+disprove|true\s+or\s+false|prove|show|verify)\s*:\s*", "prove that "),
-    (r"(?:(?:when\s+)?do(?:es)?|under\s+(?:what|which)\s+conditions?(?:\s+on\s+.+?)?\s+do(?:es)?)\s+", ""),
-    (
-        r"(?:find|determine|give)\s+(?:the\s+)?conditions?(?:\s+on\s+.+?)?\s+(?:(?:so|such)\s+that|(?:for|under)\s+which|for)\s+",
-        "",
-    ),
-    (
-        rf"(?:(?:if|given|suppose)(?:\s+that)?\s+)?(?!find|determine|for\b)(.+?)[,.]?\s+(?:find|determine)\s+(?:the\s+)?{_VALUES}?"
-        rf"({LISTED})(?:\s+(?:may|can)\s+(?:have|take))?$",
-        r"find \2 such that \1",
-    ),
-    (rf"(?:(?:find|determine|what\s+(?:is|are))\s+)?(?:the\s+)?{_VALUES}(?={LISTED}\s+(?:for|such|so)\b)", "find "),
-    (r"find\s+what\s+values", "for what values"),
-    (r"(?:solve\s+)?the\s+system(?:\s+of\s+equations)?:?\s+(?!.*\b(?:has|have)\b)(?=.*=)", "solve: "),
-    (
-        rf"find\s+({LISTED})\s+for\s+(?!which\b|what\b|all\b|every\b|any\b)(.+?)\s+with\s+(?=.*(?:root|solution))",
-        r"find \1 such that \2 has ",
-    ),
-    (rf"solve\s+(.+)\s+for\s+({_LIST})$", r"solve for \2: \1"),
-    (
-        r"((?:prove|show)\s+that\s+)for\s+(?!all\b|any\b|every\b|some\b)(.+?),?\s+(?:we\s+have|it\s+holds(?:\s+that)?)\s+",
-        r"\1if \2 then ",
-    ),
-    (r"(.*?)both\s+(?:the\s+)?roots\s+of\s+(.+?)\s+are\s+(.+)$", r"\1\2 has both roots that are \3"),
-    (r"(.*?)\s+has\s+(?:all\s+(?:its\s+)?roots\s+real|only\s+real\s+roots)$", r"\1 has both roots"),
-    (rf"({_LIST}\s+are\s+[^,]+),\s+({_PROVE}\s)", r"let \1. \2"),
-    (rf"({_PROVE}.*?)(?:,?\s+where|\.\s+(?:note:|here))\s+({_LIST}\s+(?:are|is)\s+.+)$", r"let \2. \1"),
+_COUNT = rf"{QUANTITY}|{'|'.join(COUNTS)}|no|only one|both"
+_KINDS = rf"((?:(?:distinct|double|and|{_SIGN}) )*)"
+_PLACE = (
+    rf"(?:that )?(?:lie )?(?:in (?:(?:open|closed) )?(?:interval )?({_F})|(?:in )?between ({_F}) and ({_F})"
+    rf"|(greater|less) than ({_F}))"
 )
-"""Beginnings of questions, and what is said for short."""
+_VALUES = r"(?:(?:all|set|range|possible|exact|two|values|constant|numbers|of|that|for|on|which|condition) )*"
+_THINGS = rf"(?:straight )?(?:{'|'.join(_NOUNS.split())}|constant|condition)(?: of)? :?"
+_FOUND = rf"(?:quadratic )?{_F}"
+_RULES = (
+    (r"^(?:true or false|prove or disprove) :", "prove"),
+    (r"\b(?:may|must|will|can) be\b|\bbe always\b", "is"),
+    (r" [.,] giving answers? in .*? form| to §\d+ decimal places", ""),
+    (rf"\b{_THINGS} ?(?={_F})", ""),
+    (rf"({_F}) , (?=has\b)", r"\1 "),
+    (r"^find what values", "for what values"),
+    (rf"^(?:for|at) (?:which|what) {_VALUES}({_F}) ,? ?(?:does|do|is|are|will|can)?\b", r"find \1 such that "),
+    (rf"^find condition (?:on {_F} )?(?:(?:so|such) that|for|(?:for|under) which) ", ""),
+    (r"^(?:(?:when )?does|when do|under (?:what|which) condition(?: on §\d+)? (?:does|do)) ", ""),
+    (rf"\bfind condition (?:that is satisfied by|on) ({_F})", r"find \1"),
+    (r"\b(?:so that|in order that|(?<=\d )for which|satisfy)\b", "such that"),
+    (rf"^(?:(?:what is|find) |(?=range|set|values)){_VALUES}(?={_F} (?:such that|for|if|with|does|is)\b)", "find "),
+    (rf"\b(?:find|what) {_VALUES}({_F})(?: (?:can|may|are) (?:possible|take|has))?(?= [.]?$|$)", r"find \1"),
+    (rf"^find ({_F}) for ({_F}) with (?=.*root)", r"find \1 such that \2 has "),
+    (rf"^(?:(?:if|given|suppose)(?: that)? )?(?!find|for\b)(.+?) ?[.,]? find ({_F})$", r"find \2 such that \1"),
+    (
+        rf"^(?:for )?({_FOUND}) [.,] find {_VALUES}({_F}) such that (?:it |{_THINGS})?(?=is|has)",
+        r"find \2 such that \1 ",
+    ),
+    (
+        rf"^for ({_FOUND}) , find {_VALUES}({_F}) such that ({_COUNT}) (roots?)\b",
+        r"find \2 such that \1 has \3 \4 that",
+    ),
+    (rf"(?:({_COUNT}) )?(?:of )?\b(roots?) of ({_FOUND}) (?:is|are|(?=lie))", r"\3 has \1 \2 that are "),
+    ("that are +(?=lie|in|between|greater|less)", "that "),
+    (r" has (?:(?:all|both) roots|only roots|all its roots)(?: real)?$", " has both roots"),
+    (r"\bholds?$|\b(?:is|are) (?:valid|true)(?= for\b)", ""),
+    (r"\bfor (?:all|any|every) values of ", "for all "),
+    (rf"\bsystem of {_THINGS}", "system "),
+    (rf"^(?:solve )?system :? ?({_F})$", r"solve : \1"),
+    (rf"^(?:solve )({_F}) for ({_F})$", r"solve for \2 : \1"),
+    (rf"^({_F} are [^,.:]+) , (?=prove )", r"let \1 . "),
+    (r"^prove (?:that )?for (?!all|any|every|some)(.+?) ,? ?(?:we has|it holds)(?: that)? ", r"prove if \1 then "),
+)
+"""What is said for short in place of what people say, in this order."""
+
+_PROVE = (
+    "(?:prove(?: that| whether)?|(?:decide|find|check) (?:that|whether|if)|is it true that)"
+    "(?: ?:| inequality(?: that)?)?"
+)
 _ASKED = re.compile(
-    rf"(?:({_SHOW}|(?:prove|show)(?::|(?=\s+[\w(|`√]))(?!\s+(?:in|and|or)\b))"
-    rf"|solve(?:\s+for\s+({_LIST})\s*(?::|in\b)|\s+the\s+(?:in)?equalit(?:y|ies)|\s+the\s+equations?|:|"
-    r"(?=\s+[\w(|`√])(?!\s+(?:in|and|or|for|the)\b))"
-    r"|(?:for\s+(?:which|what)|(?:find|determine)(?:\s+(?:all|every|the|some))?)\s+(?:range\s+of\s+)?(?:real\s+)?"
-    rf"(?:(?:values?\s+(?:of\s+)?|numbers?\s+))?(?!values?\b)({_LIST})\s*(?:(?:∈|in\b)\s*(?:ℝ|Reals|R\b)\s*)?"
-    r"(?:(?:such|so)\s+that|for\s+which|satisfying|with|if|does|do|is|are))\s+",
-    re.IGNORECASE,
+    rf"(?:(?P<proved>{_PROVE}) |solve (?:for (?P<for>{_F}) ?(?::|in)|{_THINGS}|:)? ?"
+    rf"|find (?:some |every )?(?P<sought>{_F}) (?:in \S+ )?(?:such that|if|with|does|do|is|are|for which) )"
+    r"(?P<rest>.*§.*)"
 )
-"""Words in front of what is to be shown or solved, or of a condition on the variables that are sought."""
+"""What is to be shown or solved, or a condition on the variables that are sought."""
 _GIVEN = re.compile(
-    r"(?:let|if|suppose(?:\s+that)?|given(?:\s+that)?(?!\s+any\b)|assume(?:\s+that)?|for(?:\s+(?:all|any|every))?(?!\s+wh))\s+(.+?)"
-    rf"(?:[.,;:]?\s+(?:then\s+)?{_PROVE}|,\s+is(?:\s+it\s+true\s+that)?)\s+(.+)",
-    re.IGNORECASE | re.DOTALL,
+    rf"(?:let|if|suppose(?: that)?|given(?: that)?(?! any)|assume(?: that)?|for(?: all| any| every)?(?! wh)) (.+?)"
+    rf"(?: ?[.,:]? (?:then )?{_PROVE}| , is(?: it true that)?) (.+)"
 )
-_IF_THEN = re.compile(r"if\s+(.+?),?\s+then\s+(.+)", re.IGNORECASE | re.DOTALL)
-_DISTINCT = r"(?:unequal|distinct|different)"
+_IF_THEN = re.compile(r"if (.+?) ?,? then (.+)")
 _SORTED = re.compile(
-    rf"({_LIST})\s+(?:be|are|is|denote)\s+(?:an?\s+|any\s+)?(?:real\s+)?({_DISTINCT}\s+)?({_SIGN})?\s*(?:reals?\b)?\s*(?:(?:numbers?|quantities)\b)?"
-    rf"|({_SIGN})\s+(?:reals?\s+)?(?:numbers?\s+)?({_LIST})|reals?\s+(?:numbers?\s+)?({_LIST})"
+    rf"({_F}) (?:(?:be|are|is|denote) )?(?:any |two |three |four )*(distinct )?({_SIGN}\b)? ?(?:numbers|constant)?"
+    rf"(?: (?:with|and) (product|sum) ({_F}))?(?! ?§)"
+    rf"|({_SIGN}) (?:numbers )?({_F})|numbers ({_F})"
 )
-"""Variables with what they are: ``a, b be positive real numbers``, ``positive reals a, b``."""
+"""Variables with what they are: ``a, b be positive numbers``, ``positive numbers a, b``."""
 _TRIANGLE = re.compile(
-    rf"({LISTED})\s*,\s*({LISTED})\s*(?:,\s*and|,|and)\s*({LISTED})\s+(?:be|are)\s+(?:the\s+)?(?:lengths\s+of\s+)?(?:the\s+)?"
-    r"(?:side\s*lengths|sides|lengths\s+of\s+the\s+sides)\s+of\s+(?:a|some)\s+triangle"
+    rf"({_F}) (?:be|are) (?:lengths of )?(?:side lengths|sides|lengths of sides) of (?:some )?triangle"
 )
 _LEAN = re.compile(
     r"(?:theorem\s+\S+|lemma\s+\S+|example)\s*((?:[({][^(){}:]*:(?:[^(){}]|\([^()]*\))*[)}]\s*)*):(?!=)\s*(.+?)\s*(?::=.*)?",
     re.DOTALL,
 )
 _BINDER = re.compile(r"[({]([^(){}:]*):\s*((?:[^(){}]|\([^()]*\))*)[)}]")
-_AND = re.compile(r"\s*,?\s*\b(?:(?:and\s+)?(?:with|such\s+that|satisfying|satisfy)|,\s*and)\b\s*")
+_AND = re.compile(r" ?,? ?\b(?:(?:and )?(?:with|such that|satisfied)|, and)\b ?:? ?")
 
 _NOT_REAL = re.compile(
     r"(?i)\b(?:positive|negative|all|any|some|are|be|an|for|the|distinct|of)\s+(integers?|natural\s+numbers?|rationals?)\b"
 )
-_UNNAMED = re.compile(r"\bfor\s+(?:all|every)\s+(?:real\s+)?values?$")
-_KINDS = rf"((?:(?:distinct|different|real|equal|double|repeated|{_SIGN}|and)\s+)*)"
-_PLACE = (
-    r"(?:(?:that\s+are|lying|lie)\s+)?"
-    r"(?:(?:in|on|inside)\s+(?:the\s+(?:open\s+|closed\s+)?interval\s+)?([\[(][^\[\]()]+[\])])"
-    r"|between\s+(\S+)\s+and\s+(\S+)|(greater|larger|bigger|less|smaller)\s+than\s+(\S+))"
+_UNNAMED = re.compile(r"\bfor (?:all|every|any) values$")
+_ROOTS = re.compile(
+    rf"(quadratic )?(system )?({_F}) (?:to )?has (?:({_COUNT}) )?{_KINDS}(?:root(s?))"
+    rf"(?: (?:(?:which|that) are )?((?:and|{_SIGN}| )+?))?(?: (?:in|for) ({_F}))??"
+    rf"(?: (?:{_PLACE}|(?:that are )?of opposite signs))?"
 )
-_COUNTED = re.compile(
-    r"(?:[Tt]he\s+)?(?:(?:quadratic|cubic)\s+)?(?:(?:equation|polynomial|function|(system)(?:\s+of\s+equations)?)\s+)?(?:f\s*\(\w\)\s*=)?(.+?)"
-    rf"\s+(?:has|have|to\s+have)\s+(an?\b|no\b|only\s+one|both|{QUANTITY}|{'|'.join(COUNTS)}|[2-6]|)\s*(?:its\s+)?"
-    rf"{_KINDS}(?:root|solution|zero)(s?)(?:\s+(?:which|that)\s+are\s+((?:real|and|{_SIGN}|\s)+))?(?:\s+(?:in|for)\s+({LISTED}))?"
-    rf"(?:\s+(?:{_PLACE}|of\s+(opposite)\s+signs?))?",
-    re.DOTALL,
-)
-_SEPARATED = re.compile(
-    rf"(?:the\s+)?(?:equation\s+)?(.+?)\s+(?:has|have)\s+one\s+root\s+{_PLACE}\s+and\s+(?:the\s+other|one)(?:\s+root)?\s+{_PLACE}",
-    re.DOTALL,
-)
-_SOLVABLE = re.compile(
-    r"(?=.*\bboth\b)(?:the\s+)?(?:equations\s+)?(.+=.+?)\s+and\s+(.+=.+?)\s+(?:are\s+)?both\s+(?:solvable|have\s+(?:a\s+)?(?:real\s+)?(?:solution|root)s?)"
-)
-_CURVE = (
-    r"(?:an?\s+|the\s+)?(?:straight\s+)?(?:(?:line|curve|circle|parabola|ellipse|hyperbola|graph)\s+)?"
-    r"(?:of\s+|with\s+equation\s+)?"
-)
+_SEPARATED = re.compile(rf"({_F}) has one root {_PLACE} and (?:other|one)(?: root)? {_PLACE}")
+_SOLVABLE = re.compile(rf"(?:is|are )?({_F}) and ({_F}) (?:are )?both (?:solvable|has roots?)")
 _MEETING = re.compile(
-    rf"(?=.*\b(?:meet|intersect|cut|touch|tangent))(?:is\s+)?{_CURVE}(.+?=.+?)\s+(?:is\s+)?(?:an?\s+(?=tangent))?(meets?|intersects?|cuts?|touch(?:es)?|tangent\s+to)\s+{_CURVE}(.+?=.+?)"
-    rf"(?:\s+(?:at|in)\s+(no|only\s+one|{QUANTITY}|{'|'.join(COUNTS)})(?:\s+(?:distinct|different|real))*\s+points?)?"
+    rf"(?:is |does |do )?({_F}) (?:is |are )?(meet|touch|tangent to) ({_F})"
+    rf"(?: (?:at|in) ({_COUNT})(?: distinct)* points)?"
 )
-_ALWAYS = re.compile(
-    rf"(?:is\s+)?(?:the\s+(?:expression|function|quantity|polynomial)\s+)?(.+?)\s+(?:(?:is|be|will\s+be)\s+)?(?:always\s+)?({_SIGN})(?:\s+(for\s+(?:all|every|any)\b.*))?",
-    re.DOTALL,
-)
+_ALWAYS = re.compile(rf"(is )?({_F}) (?:(is|be) )?(always )?({_SIGN})(?: (for (?:all|every|any) .*))?")
 _BOUND = re.compile(
     rf"(?:[∃∀]|\b(?:[Ff]or\s+(?:all|every|any|some)|{THERE}|ex|all|exists|forall|Ex|All|Exists|ForAll)\b)"
-    rf"[\s(\[{{]*(?:(?:reals?|numbers?|an?|some|{_SIGN})\s+)*({_LIST})"
+    rf"[\s(\[{{]*(?:(?:reals?|numbers?|an?|some|{_SIGN})\s+)*({LISTED}(?:\s*(?:,|and)\s*{LISTED})*)"
 )
 """The variables of a quantifier."""
 _CALL = re.compile(
@@ -149,25 +197,98 @@ _WITHIN = re.compile(r"(?:domain\s*=\s*)?Interval(?:\.([LR]?)open)?\(\s*([^,()]+
 _DOMAIN = re.compile(r"(?:domain\s*=\s*)?S?\.?Reals|real\b|\w+\s*=\s*(?:True|False|real|Q\.real\(\w+\)|'[^']*')")
 _NAMES = re.compile(rf"(?:{LISTED}|[\[({{]\s*(?:{LISTED}(?:\s*,\s*{LISTED})*)?\s*[\])}}])")
 
-_GOAL = re.compile(
-    r"(?i)\s*(?:(?:find|what\s+is|determine)\s+)?(?:the\s+)?(?:(min|max)(?:imum|imi[sz]e|imal|(?=:?\s+[-\w|]))"
-    r"(?:\s+(?:possible\s+)?value)?(?:\s+of)?|(least|smallest|lowest|greatest|largest|highest)\s+(?:possible\s+)?value\s+of):?\s+(?:f\s*\([\w\s,]*\)\s*=\s*)?"
+_LIST = re.compile(rf"{LISTED}(?:\s*,\s*{LISTED})*")
+_GOAL = (
+    rf"(?:(?:find|what is) )?(?:(?:({_LEAST.replace(' ', '|')})|({_GREATEST.replace(' ', '|')}))"
+    r"(?: possible)?(?: values)?"
+    rf"(?: (?:of|that|which))? ?:? ?(?:{_THINGS})? ?)"
 )
+_SUBJECT = r" ?,? (?:subject to(?: condition)?(?: that)?|such that|given|under|where|when|for|with|over|on|if) :? ?"
+_OPTIMUM = re.compile(rf"{_GOAL}({_F})(?: can take)?(?:{_SUBJECT}(.+))?")
 _EXTREME = re.compile(
-    rf"(?i)\s*(?:find|determine)\s+(?:the\s+)?(?:numbers?\s+)?{_LIST}\s+(?:satisfying\s+(?:the\s+equation\s+)?(?P<given>.+?)\s+)?"
-    r"(?:such|so)\s+that\s+(?P<goal>.+?)\s+is\s+(?:an?\s+|as\s+)?(?:(?P<max>max|large)|min|small)(?:imum|imal|imi[sz]ed)?"
-    r"(?:\s+as\s+possible)?(?P<rest>\s.+)?"
+    rf"find (?:numbers )?{_F} (?:such that (?P<given>.+?) )?such that (?P<goal>{_F}) is (?:as )?"
+    rf"(?:(?P<min>{_LEAST.replace(' ', '|')})|{_GREATEST.replace(' ', '|')})(?: as possible)?"
+    rf"(?:{_SUBJECT}(?P<rest>.+))?"
 )
 """Variables that are sought where something is greatest or least."""
 _FIRST = re.compile(
-    r"(?is)\s*(?:given|if|let|suppose|for)\s+(?:that\s+)?(.+?)[,.;]?\s+(?:then\s+)?((?:find|what\s+is|determine|minimi[sz]e|maximi[sz]e)\s.+)"
+    rf"(?:(?:given|if|let|suppose|for)(?: that)? )?(.+?) ?[.,]? (?:then )?((?:find |what is ){_GOAL}{_F}.*)"
 )
-"""What is given in front of an optimum that is asked for."""
-_SUBJECT = re.compile(
-    r"(?is)(.+?),?\s+(?:subject\s+to(?:\s+the\s+(?:constraints?|conditions?))?(?:\s+that)?|s\.\s?t\.|such\s+that|given|where|when|for|with|over|on|if(?!.*\bthen\b)):?\s+(.+)"
-)
+"""What is given in front of an optimum that is begins for."""
+_OF_TWO = re.compile(rf"\b(product|sum) of ({_F})")
 _INTERVAL = re.compile(r"\s*[\[(][^()\[\]<>=≤≥]*,[^()\[\]<>=≤≥]*[\])]\s*")
 _RELATED = re.compile(r"[<>=≤≥≠∈]")
+
+
+_OPERATOR = re.compile(r"[-+*/^=<>(,]\s*$")
+
+
+class _Sentence:
+    """The words of a text, §0, §1, … where its formulas stand."""
+
+    def __init__(self, text: str) -> None:
+        self.formulas: list[str] = []
+        words: list[str] = []
+        segment = ""
+        text = re.sub(r"\b([Nn])on[-\s]+(?=negative|zero|positive)", r"\1on", re.sub(r"\bs\.\s?t\.", "such that", text))
+        for piece in _PIECE.finditer(text):
+            word = (piece["WORD"] or "").lower()
+            if word in _VOCABULARY or (piece["ARTICLE"] and not _OPERATOR.search(segment)):
+                words += [*self._segment(segment), _VOCABULARY.get(word, ",").strip(",")]
+                segment = ""
+            else:
+                segment += piece[0]
+        words += self._segment(segment)
+        self.words = re.sub(r"(?:[ .]*\.)?$", "", " ".join(filter(None, words)))
+        at = 0
+        while two := re.compile(rf"({_F}) (?:, )?and ({_F})").search(self.words, at):
+            left, right = (self.formulas[int(one[1:])] for one in two.groups())
+            at = two.start() + 1
+            if _LIST.fullmatch(left) and _LIST.fullmatch(right):
+                at -= 1
+                self.words = f"{self.words[:at]}{self.put(f'{left}, {right}')}{self.words[two.end() :]}"
+        for pattern, meant in _RULES:
+            self.words = re.sub(" +", " ", re.sub(pattern, meant, self.words)).strip()
+
+    def has_others(self, text: str) -> bool:
+        """Whether there are words in the text that are neither known nor names or products of names."""
+        words = re.findall(r"(?<![\\\w`{])([^\W\d_]{4,})(?![\w`(\[]|\s*(?:[\^*/<>≤≥]|=))", text)
+        letters = {*re.findall(r"(?<![^\W\d_])[^\W\d_](?![^\W\d_])", text)}
+        known = {*_VOCABULARY, *map(str.lower, (*KEYWORDS, *FUNCTIONS))}
+        return any(
+            word.lower() not in known and not is_product(word, letters) and not LETTERS.fullmatch(word)
+            for word in words
+        )
+
+    def _segment(self, text: str) -> list[str]:
+        """A formula between two words, and the signs of punctuation around it."""
+        before, inside, behind = re.fullmatch(r"([\s.,:;?]*)(.*?)([\s.,:;?]*)", text, re.DOTALL).groups()  # type: ignore[union-attr]
+        marks = [[mark if mark in ",:" else "." for mark in part if mark in ".,:;?"] for part in (before, behind)]
+        inside = re.sub(r"^'(\w+)'$", r"\1", re.sub(r"\(\s*\w+\s*∈\s*(?:R|ℝ)\s*\)$", "", inside.replace("–", "-")))
+        inside = re.sub(r"^[fg]\s*\(\s*\w(?:\s*,\s*\w)*\s*\)\s*=", "", inside)
+        if inside and is_latex(inside):
+            inside = as_text(inside)
+        if said := re.fullmatch(rf"({_LIST.pattern})\s*([.:])\s+(.+)", inside, re.DOTALL):  # for x: f
+            return [*marks[0], self.put(said[1]), said[2], *self._segment(said[3]), *marks[1]]
+        return [*marks[0], *([self.put(inside)] if inside else []), *marks[1]]
+
+    def put(self, formula: str) -> str:
+        """The sign for a formula."""
+        self.formulas.append(formula.strip())
+        return f"§{len(self.formulas) - 1}"
+
+    def __getitem__(self, part: str) -> str:
+        """The text of a part of the sentence."""
+        text = re.sub(r"§(\d+)", lambda at: self.formulas[int(at[1])], part)
+        return re.sub(r" (?=[,.:])", "", text).strip()
+
+    def names(self, part: str) -> list[str]:
+        """The names in a list."""
+        return re.findall(LISTED, self[part])
+
+    def joined(self, how: str, listed: str) -> str:
+        """The product or the sum of the variables in a list."""
+        return (" * " if how == "product" else " + ").join(self.names(listed))
 
 
 def plainly(text: str) -> Question:
@@ -188,31 +309,57 @@ def plainly(text: str) -> Question:
     if call := _CALL.fullmatch(short):
         return _called(call[1], call[2])
     if sort := _NOT_REAL.search(short):
-        raise InputError(f"all variables are real, {sort[1]} cannot be asked for")
-    short = short.rstrip(" ?.")
-    for pattern, put in _STOCK:
-        short = re.sub(rf"^{pattern}", put, short, flags=re.IGNORECASE)
-    given = _GIVEN.fullmatch(short) or _IF_THEN.fullmatch(short)
-    if given and (given.re is _GIVEN or premise(given[1]) != given[1]):
-        return Question(_closed(_claim(given[2]), premise(given[1])))
-    begins = _ASKED.match(short)
-    rest, listed = (short[begins.end() :], begins[2] or begins[3] or "") if begins else (short, "")
-    names = tuple(re.findall(rf"\b(?!and\b){LISTED}", listed))
+        raise InputError(f"all variables are real, {sort[1]} cannot be begins for")
+    said = _Sentence(short)
+    constants: list[str] = []
+    said.words = re.sub(
+        rf" ?[.,]? (?:where|note :?|here) ({_F} (?:is|are)(?: (?:{_SIGN}|distinct|constant|numbers))+)(?: ,)?",
+        lambda where: constants.append(_premise(said, where[1])) or "",  # type: ignore[func-returns-value]
+        said.words,
+    ).strip()
+    question = _read(said, " and ".join(filter(None, constants)))
+    is_clear = question is not None and _is_formula(question.formula) and not said.has_others(text)
+    return question if question is not None and is_clear else Question(text)
+
+
+def _is_formula(text: str) -> bool:
+    """Whether no words of sentences are in a formula, but where quantifiers have them."""
+    text = re.sub(rf"\b(?:all|any|every|some|is|are|exists|least|most|exactly)(?: {_SIGN})? (?:numbers )?", "", text)
+    return not any(word in _VOCABULARY for word in re.findall(WORD, text) if word not in _SYNTAX)
+
+
+def _read(said: _Sentence, known: str) -> Question | None:
+    """What a sentence asks under what is ``known``; None where that is not clear."""
+    words = said.words
+    given = _GIVEN.fullmatch(words) or _IF_THEN.fullmatch(words)
+    if given and (given.re is _GIVEN or _premise(said, given[1]) != said[given[1]]):
+        return Question(_closed(_claim(said[given[2]]), _both(known, _premise(said, given[1]))))
+    begins = _ASKED.fullmatch(words)
+    rest = begins["rest"] if begins else words
+    listed = said.names(begins["for"] or begins["sought"] or "") if begins else ()
+    names = tuple(unquoted(name) if name[0] == "`" else name for name in listed)
     for name in names:
-        rest = re.sub(rf"(?<!\w)({re.escape(name)})\(", r"\1*(", rest)
+        said.formulas[:] = [re.sub(rf"(?<!\w)({re.escape(name)})\(", r"\1*(", one) for one in said.formulas]
     if unnamed := _UNNAMED.search(rest):
-        others = {*_names(rest[: unnamed.start()])}.difference(names)
+        others = {*_names(said[rest[: unnamed.start()]])}.difference(names)
         if len(others) != 1:
             raise InputError(f"{unnamed[0]}: the name of a variable expected behind it, as in for all real values of x")
-        rest = f"{rest} of {others.pop()}"
-    formula = _separated(rest, names) or _counted(rest, names) or _solvable(rest, names) or _meeting(rest, names)
-    formula = formula or _always(rest)
+        rest = f"{rest[: unnamed.start()]}for all {others.pop()}"
+    formula = next(
+        filter(None, (kind(said, rest, names) for kind in (_separated, _counted, _solvable, _meeting))), None
+    )
+    formula = formula or _always(said, rest)
     if formula is None and _TRIANGLE.match(rest):
-        formula = premise(rest)
+        formula = _premise(said, rest)
     if formula is None and begins:
-        formula = re.sub(r"\s*\bholds?$", "", rest)
-        formula = _closed(_claim(formula)) if begins[1] else formula
-    return Question(text) if formula is None else Question(formula, names)
+        formula = said[rest]
+        if begins["proved"]:
+            return Question(_closed(_claim(formula), known))
+    return None if formula is None else Question(_both(known, formula), names)
+
+
+def _both(*parts: str) -> str:
+    return " and ".join(f"({part})" if len([*filter(None, parts)]) > 1 else part for part in parts if part)
 
 
 # --- what is to be proved ---------------------------------------------------------------------------------
@@ -226,22 +373,31 @@ def _closed(claim: str, given: str = "") -> str:
 
 def _claim(text: str) -> str:
     """What is claimed, with a quantifier behind it in front."""
-    text = re.sub(r"^\s*(?:that|the inequality)\s+", "", text)
-    text = re.sub(rf"\bfor\s+(?=(?:{_SIGN}|reals?)\s)", "for all ", text)
-    return re.sub(r"(?s)^(.+?)\s+(for\s+(?:all|every|any)\b[^:]*)$", r"\2: \1", text)
+    text = re.sub(rf"\bfor (?=(?:{_SIGN}|numbers) )", "for all ", text)
+    return re.sub(r"(?s)^(.+?) (for (?:all|every|any)\b[^:]*)$", r"\2: \1", text)
 
 
-def premise(text: str) -> str:
-    """Conditions in words: ``x, y be positive reals with x + y = 1`` is ``x, y > 0 and x + y = 1``."""
+def _premise(said: _Sentence, text: str) -> str:
+    """Conditions in words: ``x, y be positive numbers with x + y = 1`` is ``x, y > 0 and x + y = 1``."""
 
     def sorted_names(match: re.Match[str]) -> str:
-        listed, sign = match[1] or match[5] or match[6], match[3] or match[4]
-        names = re.findall(rf"\b(?!and\b){LISTED}", listed)
-        said = [f"{', '.join(names)} {SIGNED[sign]} 0 "] if sign else []
-        return " and ".join([*said, *(f"{a} /= {b} " for a, b in combinations(names, 2) if match[2])])
+        where = match[1] or match[7] or match[8]
+        listed, sign = said.names(where), match[3] or match[6]
+        if match[0].strip() == match[1] or not _LIST.fullmatch(said[where]):
+            return match[0]
+        parts = [f"{', '.join(listed)} {SIGNED[sign]} 0"] if sign else []
+        parts += [f"{a} /= {b}" for a, b in combinations(listed, 2) if match[2]]
+        parts += [f"{said.joined(match[4], match[1])} = {said[match[5]]}"] if match[4] else []
+        return f" {said.put(' and '.join(parts))} " if parts else " "
 
-    text = _TRIANGLE.sub(r"\1, \2, \3 > 0 and \1 + \2 > \3 and \2 + \3 > \1 and \3 + \1 > \2", text)
-    return re.sub(r"^\s*and\b|\band\s*$", "", _AND.sub(" and ", _SORTED.sub(sorted_names, text))).strip(" ,")
+    def triangle(match: re.Match[str]) -> str:
+        listed = said.names(match[1])
+        a, b, c = listed if len(listed) == 3 else (match[0], "", "")
+        return said.put(f"{a}, {b}, {c} > 0 and {a} + {b} > {c} and {b} + {c} > {a} and {c} + {a} > {b}")
+
+    text = _SORTED.sub(sorted_names, _TRIANGLE.sub(triangle, text))
+    text = re.sub(r"^\s*and\b|\band\s*$", "", re.sub(r"\band(?: and)+\b", "and", _AND.sub(" and ", text).strip()))
+    return said[re.sub(" +", " ", text)].strip(" ,.")
 
 
 def _stated(binders: str, claim: str) -> str | None:
@@ -262,20 +418,22 @@ def _names(text: str) -> tuple[str, ...]:
     from qe.io.text_lexer import CALLS
     from qe.io.text_parser import products
 
-    words = [word for word in re.findall(LISTED, text) if not {word} & {*KEYWORDS, *FUNCTIONS, *CALLS, *NO_NAMES}]
+    no_names = {*KEYWORDS, *FUNCTIONS, *CALLS, *NO_VARIABLES, *_VOCABULARY}
+    words = [word for word in re.findall(LISTED, text) if word not in no_names]
     made = products(text)
     return tuple(dict.fromkeys(name for word in words for name in (word if word in made else [word])))
 
 
 # --- roots ------------------------------------------------------------------------------------------------
-def _equation(text: str, sought: tuple[str, ...], named: str | None = None) -> tuple[str, str] | None:
+def _equation(text: str, sought: Iterable[str], named: str | None = None) -> tuple[str, str] | None:
     """An equation and the variable that it is to be solved for; None where that is not clear."""
     whole = {*_names(text)}
     others = whole.difference(sought)
     has_x = any(other.endswith("x") for other in others if len(other) < 4)  # x, ax
     name = named or ("x" if has_x else others.pop() if len(others) == 1 else "")
     powers = tuple(f"{one}{power}" for one in (name, *sought) for power in "23")  # mx2 for m*x^2
-    if name and (meant := {other for other in whole if other.swapcase() in (name, *sought) or other.endswith(powers)}):
+    meant = {other for other in whole if other.swapcase() in (name, *sought) or other.endswith(powers)}
+    if name and meant:
         raise InputError(f"{', '.join(sorted(meant))}: a power is written x^2, and small letters are not capitals")
     if not name or re.search(r"[<>≤≥≠∃∀]|\b(?:and|or|ex|all|for|if)\b", text):
         return None
@@ -312,83 +470,85 @@ def _quadratic(equation: str, name: str) -> list[str] | None:
     return [] if lead.is_constant else [str(atom(lead, Relation.NE))]
 
 
-def _counted(text: str, sought: tuple[str, ...]) -> str | None:
+def _counted(said: _Sentence, text: str, sought: tuple[str, ...]) -> str | None:
     """``f has two positive roots in [0, 1]``; None for another text."""
-    counted = _COUNTED.fullmatch(text)
-    if counted is None or re.search(r"\bno\s+(?:real\s+)?(?:distinct|different)", text):  # none, or one alone
+    counted = _ROOTS.fullmatch(text)
+    if counted is None:
         return None
-    is_system, whose, many, kinds, several, also, named, *place, opposite = counted.groups()
+    is_quadratic, is_system, whose, many, kinds, several, also, named, *place = counted.groups()
+    whose, many = said[whose], many or ""
     if is_system:
         names = [name for name in _names(whose) if name not in sought]
-        exists = {"": "ex", "a": "ex", "an": "ex", "no": "not ex"}.get(many)
-        return f"{exists} {', '.join(names)}. {{{whose}}}" if exists and sought and names else None
-    solved = _equation(whose, sought, named)
+        exists = {"": "ex", "no": "not ex"}.get(many)
+        is_plain = not (kinds or also or any(place))
+        return f"{exists} {', '.join(names)}. {{{whose}}}" if exists and sought and names and is_plain else None
+    solved = _equation(whose, sought, said[named] if named else None)
     if solved is None:
         return None
     equation, name = solved
     signs = [f"{name} {SIGNED[word]} 0" for word in re.findall(_SIGN, f"{kinds} {also or ''}")]
-    conditions = [condition for condition in (*signs, _place(name, place)) if condition]
+    conditions = [condition for condition in (*signs, _place(said, name, place)) if condition]
     many = "both" if not many and several and conditions else many
-    is_double = re.search("equal|double|repeated", kinds)
-    if many == "both" or opposite or is_double:
-        if (said := _quadratic(equation, name)) is None:
+    is_opposite, is_double = "opposite" in text, "double" in kinds
+    if many == "both" or is_opposite or is_double:
+        if (quadratic := _quadratic(equation, name)) is None:
             return None
-        if opposite:
-            said += [f"(ex {name}. {equation} and {name} {side} 0)" for side in "<>"]
+        if is_opposite:
+            quadratic += [f"(ex {name}. {equation} and {name} {side} 0)" for side in "<>"]
         elif is_double:
-            said += [f"exactly one {name}. {equation}"]
+            quadratic += [f"exactly one {name}. {equation}"]
         else:
-            said += [f"(ex {name}. {equation})"]
-            said += [f"all {name}. {equation} -> {' and '.join(conditions)}"] if conditions else []
-        return " and ".join(said)
-    many = "at least two" if not many and re.search("distinct|different", kinds) else many
-    lead = _quadratic(equation, name) if re.match(r"(?:[Tt]he\s+)?quadratic\b", text) else None
+            quadratic += [f"(ex {name}. {equation})"]
+            quadratic += [f"all {name}. {equation} -> {' and '.join(conditions)}"] if conditions else []
+        return " and ".join(quadratic)
+    many = "at least two" if not many and "distinct" in kinds else many
+    lead = _quadratic(equation, name) if is_quadratic else None
     counting = f"{_many(many)} {name}. {' and '.join((equation, *conditions))}"
     return f"{lead[0]} and ({counting})" if lead else counting
 
 
-def _many(said: str) -> str:
+def _many(many: str) -> str:
     """The quantifier for words that say how many."""
-    said = " ".join(said.split())
-    kind = {"": "ex", "a": "ex", "an": "ex", "no": "not ex", "only one": "exactly one"}.get(said)
-    return kind or ("" if " " in said else "exactly ") + said
+    kind = {"": "ex", "no": "not ex", "only one": "exactly one"}.get(many)
+    return kind or ("" if " " in many else "exactly ") + many
 
 
-def _separated(text: str, sought: tuple[str, ...]) -> str | None:
-    """``f has one root smaller than 2 and the other greater than 2``; None for another text."""
+def _separated(said: _Sentence, text: str, sought: tuple[str, ...]) -> str | None:
+    """``f has one root less than 2 and other greater than 2``; None for another text."""
     two = _SEPARATED.fullmatch(text)
-    solved = _equation(two[1], sought) if two else None
-    if two is None or solved is None or (said := _quadratic(*solved)) is None:
+    solved = _equation(said[two[1]], sought) if two else None
+    if two is None or solved is None or (quadratic := _quadratic(*solved)) is None:
         return None
     equation, name = solved
-    places = (_place(name, list(place)) for place in (two.groups()[1:6], two.groups()[6:]))
-    return " and ".join([*said, *(f"(ex {name}. {equation} and {place})" for place in places)])
+    places = (_place(said, name, list(place)) for place in (two.groups()[1:6], two.groups()[6:]))
+    return " and ".join([*quadratic, *(f"(ex {name}. {equation} and {place})" for place in places)])
 
 
-def _solvable(text: str, sought: tuple[str, ...]) -> str | None:
+def _solvable(said: _Sentence, text: str, sought: tuple[str, ...]) -> str | None:
     """``f and g are both solvable``; None for another text."""
     both = _SOLVABLE.fullmatch(text)
-    solved = [_equation(one, sought) for one in both.groups()] if both else []
+    solved = [_equation(said[one], sought) for one in both.groups()] if both else []
     listed = [f"(ex {one[1]}. {one[0]})" for one in solved if one]
     return " and ".join(listed) if len(listed) == 2 else None
 
 
-def _meeting(text: str, sought: tuple[str, ...]) -> str | None:
+def _meeting(said: _Sentence, text: str, sought: tuple[str, ...]) -> str | None:
     """``the line y = f meets the curve g in two points``; None for another text. The line is tangent where the equation
     for x has a double root."""
-    meeting = _MEETING.fullmatch(re.sub(r"^(.*=.*)\s+and\s+(.*=.*)\s+(meet|touch|intersect)\b", r"\1 \3s \2", text))
+    meeting = _MEETING.fullmatch(re.sub(rf"^(?:do )?({_F}) and ({_F}) (meet|touch)\b", r"\1 \3 \2", text))
     if meeting is None:
         return None
-    first, how, second, many = meeting.groups()
+    how, many = meeting[2], meeting[4]
+    first, second = said[meeting[1]], said[meeting[3]]
     for graph, other in ((first, second), (second, first)):
         y, _, value = (part.strip() for part in graph.partition("="))
-        if re.fullmatch(WORD, y) and y not in _names(value):
+        if re.fullmatch(WORD, y) and y not in _names(value) and "=" in other:
             left, _, right = other.partition("=")
             solved = _equation(f"({left}) - ({right}) + 0*({value})", (*sought, y))
             if solved is None:
                 return None
             x = solved[1]
-            if how.startswith(("touch", "tangent")):
+            if how != "meet":
                 return None if many else _tangent(y, value, other, x)
             return f"{_many(many)} {x}. ex {y}. {first} and {second}" if many else f"ex {x}, {y}. {first} and {second}"
     return None
@@ -403,58 +563,68 @@ def _tangent(y: str, value: str, curve: str, x: str) -> str | None:
     return f"ex {x}. {equation} and {atom(poly.derivative(poly.ring.index[x]), Relation.EQ)}"
 
 
-def _place(name: str, place: list[str | None]) -> str:
+def _place(said: _Sentence, name: str, place: list[str | None]) -> str:
     """Where a root is, as a condition; empty without one."""
-    interval, low, high, side, bound = place
+    interval, low, high, side, bound = (part and said[part] for part in place)
     if interval:
         return f"{name} in {interval}"
     if low:
         return f"{low} < {name} < {high}"
-    return f"{name} {'<' if side in ('less', 'smaller') else '>'} {bound}" if side else ""
+    return f"{name} {'<' if side == 'less' else '>'} {bound}" if side else ""
 
 
-def _always(text: str) -> str | None:
+def _always(said: _Sentence, text: str) -> str | None:
     """``is f positive for all x``; None for another text."""
     always = _ALWAYS.fullmatch(text)
-    if always is None or not (always[3] or re.match(r"is\b|.*\balways\b", text, re.DOTALL)):
+    if always is None or not (always[1] or always[4] or always[6]):
         return None
-    if re.search(r"[=<>≤≥≠∃∀]|\b(?:and|or|ex|all|for|if|is|are|there)\b", always[1]):
+    term = said[always[2]]
+    if re.search(r"[=<>≤≥≠∃∀]", term):
         return None
-    claim = f"{always[1]} {SIGNED[always[2]]} 0"
-    return f"{always[3]}: {claim}" if always[3] else _closed(claim)
+    claim = f"{term} {SIGNED[always[5]]} 0"
+    return f"{said[always[6]]}: {claim}" if always[6] else _closed(claim)
 
 
 # --- optima -----------------------------------------------------------------------------------------------
 def optimum_in_words(text: str) -> tuple[int, str, str] | None:
     """1 or -1 (0 without a word for it), the objective and the conditions of ``minimize f subject to c``, ``f, c``,
     ``given c, find the least value of f``; None for another text."""
-    text = re.sub(r"(?i)\bthe\s+product\s+of\s+(\w+)\s+and\s+(\w+)", r"\1 * \2", _typed(text).rstrip(" ?."))
-    text = re.sub(r"(?i)\bthe\s+sum\s+of\s+(\w+)\s+and\s+(\w+)", r"\1 + \2", text)
-    if extreme := _EXTREME.fullmatch(text):
-        wanted = f"{'maximum' if extreme['max'] else 'minimum'} of {extreme['goal']}{extreme['rest'] or ''}"
-        text = wanted + (f" subject to {extreme['given']}" if extreme["given"] else "")
-    if (given := _FIRST.fullmatch(text)) and (inner := optimum_in_words(given[2])):
-        sign, objective, conditions = inner
-        return sign, objective, ", ".join((premise(given[1]), *([conditions] * (conditions != "true"))))
-    goal = _GOAL.match(text)
-    said = _SUBJECT.fullmatch(text, goal.end() if goal else 0)
-    whole = text[goal.end() :] if goal else text
-    objective, conditions = (said[1], premise(said[2])) if said else _at_comma(whole)
-    if not goal and objective == whole:
+    said = _Sentence(_typed(text))
+    if said.has_others(text):
+        said.words = ""
+    said.words = _OF_TWO.sub(lambda two: said.put(f"({said.joined(two[1], two[2])})"), said.words)
+    said.words = re.sub(rf"\bof expression for (.+?) :? ?({_F})$", r"of \2 for \1", said.words)
+    if extreme := _EXTREME.fullmatch(said.words):
+        known = " and ".join(filter(None, (extreme["given"], extreme["rest"])))
+        return _optimum(1 if extreme["min"] else -1, said[extreme["goal"]], _premise(said, known))
+    conditions = ""
+    given = _FIRST.fullmatch(said.words)
+    if given:
+        conditions, said.words = _premise(said, given[1]), given[2]
+    if goal := _OPTIMUM.fullmatch(said.words):
+        objective, more = said[goal[3]], _premise(said, goal[4] or "")
+        objective, behind = _at_comma(objective)
+        return _optimum(1 if goal[1] else -1, objective, ", ".join(filter(None, (conditions, behind, more))))
+    if given:
         return None
+    parts = re.fullmatch(rf"({_F}){_SUBJECT}(.+)", said.words)
+    objective, conditions = (said[parts[1]], _premise(said, parts[2])) if parts else _at_comma(text)
+    return _optimum(0, objective, conditions) if conditions else None
+
+
+def _optimum(sign: int, objective: str, conditions: str) -> tuple[int, str, str]:
+    """An optimum that is begins for; its conditions may be an interval for the only variable."""
     names = {*re.findall(WORD, objective)}.difference(FUNCTIONS)
     if _INTERVAL.fullmatch(conditions) and len(names) == 1:
         conditions = f"{names.pop()} in {conditions}"
-    word = (goal[1] or goal[2]).lower() if goal else ""
-    sign = (word in ("min", "least", "smallest", "lowest")) - (word in ("max", "greatest", "largest", "highest"))
-    return sign, objective, conditions
+    return sign, objective, conditions or "true"
 
 
 def _at_comma(text: str) -> tuple[str, str]:
     """An objective and the conditions that follow it: ``x + 1/x, x > 0``."""
     first, *rest = split(text)
     is_pair = rest and _RELATED.search(", ".join(rest)) and not _RELATED.search(first)
-    return (first, ", ".join(rest)) if is_pair else (text, "true")
+    return (first, ", ".join(rest)) if is_pair else (text, "")
 
 
 # --- other systems ----------------------------------------------------------------------------------------

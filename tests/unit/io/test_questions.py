@@ -111,6 +111,30 @@ from qe.io.questions import plainly
         ("SolveTools:-SemiAlgebraic({a*x < b}, [x])", "a*x < b"),
         ("Assuming[m > 0, Reduce[{$Assumptions, x^2 < m^2}]]", "m > 0 and x^2 < m^2"),
         ("Refine[x > m, m > 0 && x^2 < m]", "x > m and m > 0 and x^2 < m"),
+        ("If the quadratic equation kx^2+kx+1=0 has no real roots, what values of k are possible?", "0 < k < 4"),
+        ("The equation $$\\frac {3}{x} + 5 = c$$ where \\(c\\) is a constant, has no real roots.\nFind the range of "
+         "possible values of \\(c\\).", "c = 5"),
+        ("Given that \\(k x^{2} + 6 k x + 5 = 0 \\quad\\) where \\(k\\) is a non zero constant has no real roots, find "
+         "the range of possible values for \\(k\\), giving your answer in surd form.", "0 < 9*k < 5"),
+        ("Find the exact values of the constant \\(k\\) for which the line\n\\(y=2x+1\\)\nis a tangent to the curve\n"
+         "\\(y=4x^2+kx+k-2.\\)", "k^2 - 20*k + 52 = 0"),
+        ("Find the value of $k$ for which the inequality $x^2+2k>0$ is valid for ANY value of $x$.", "k > 0"),
+        ("$x^2+k$, find the condition that must be satisfied by k in order that the expression may be positive for all "
+         "real values of x.", "k > 0"),
+        ("Let a,\\,b be positive real numbers satisfying a+b=1.\nProve that 4ab\\ge1.", "false"),
+        ("Given the positive reals a,b and c,d satisfying the condition: a+c=b+d=1 Prove the inequality 1/(ac)>=4.",
+         "true"),
+        ("Let a, b, c three positive reals with product 1. Prove a + b + c >= 3.", "true"),
+        ("Find all possible values of a for which exactly one root of x^2−a=0 lies in interval (0,3)", "0 < a < 9"),
+        ("For the equation x^2 – a = 0 (a ∈ R), find the values of 'a' such that exactly one root lies in between 1 and"
+         " 2.", "1 < a < 4"),
+        ("For what values of a does x^2 - 2ax + a + 6 = 0 have both roots positive?", "a >= 3"),
+        ("mx2 + 2mx - 3 = 0 has real roots", "mx2 + 2mx - 3 = 0 has real roots"),
+        ("Let x, y be imaginary numbers. Show that x^2 >= 0", "Let x, y be imaginary numbers. Show that x^2 >= 0"),
+        ("For which k never does x^2 = k have a root?", "For which k never does x^2 = k have a root?"),
+        ("there exist distinct numbers x, y with x = y", "there exist distinct numbers x, y with x = y"),
+        ("find a such that the system x + y = a has a negative solution",
+         "find a such that the system x + y = a has a negative solution"),
         ("Reduce[x^2 < 1, x, Reals, Cubics -> True, Quartics -> False]", "x^2 < 1"),
     ),
 )  # fmt: skip
@@ -177,6 +201,10 @@ def test_both_roots_and_one_on_either_side(p: int, q: int, bound: int) -> None:
         "find x and y such that x + y is a minimum subject to the constraint that xy = 1, x > 0",
         "Find numbers \\(x\\) and y satisfying x*y = 1, x > 0 such that the sum of x and y is as small as possible",
         "Find the minimum of \\( f(x, y) = x + y \\) subject to the constraint \\( x*y=1 \\), x > 0",
+        "Real numbers x and y satisfy the inequalities 2xy >= x + y > 0. What is the smallest value that x+y can take?",
+        "$x$ is a positive number such that $x \\ge 1$. Find the minimum value of $x + 1/x$ to 2 decimal places.",
+        "Find the minimum value of the following expression for positive real numbers \\(x\\): \\[x + \\frac{1}{x}\\]",
+        "minimize x + 1/x under x > 0",
         "minimize(x + 1/x, x=1/2..3, locus)",
         "minimize(x + y, [x*y = 1, x >= 0], [x, y])",
         "f := x + y; c := [x*y = 1, x >= 0]; minimize(f, c, [x, y])",
