@@ -229,12 +229,8 @@ def smt(
     from qe.cli import smt as cli_smt
 
     limits = checked({**settings, "timeout": timeout})
-    source = None if script == "-" else read_source(script, Format.SMTLIB)
-    if source is not None and source.name == "<argument>":
-        raise no_file(script)
-    text, name = (None, "<stdin>") if source is None else (source.text, source.name)
     limit = timeout if timeout is None or interactive else remaining(timeout)
-    return cli_smt.run(text, name, timeout=limit, memory=limits["memory"], interactive=interactive)
+    return cli_smt.run(script, timeout=limit, memory=limits["memory"], interactive=interactive)
 
 
 @app.command(short_help="Ask and answer on the terminal (so does qe alone).")

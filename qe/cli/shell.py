@@ -23,9 +23,6 @@ from pathlib import Path
 from types import FrameType, TracebackType
 from typing import TYPE_CHECKING, Any, TextIO, TypeVar
 
-import typer
-from typer.main import get_command, get_command_name
-
 from qe.cli.source import in_json
 from qe.cli.values import take_leading_minus, take_plain_values
 from qe.errors import CertificateRejected, DoubtfulInput, InputError, QEError, Unable, restored
@@ -33,6 +30,8 @@ from qe.extras import lacking
 from qe.progress import Event
 
 if TYPE_CHECKING:
+    import typer
+
     from qe.processes.channel import Channel
 
 T = TypeVar("T")
@@ -55,17 +54,40 @@ LINES_APART = 2.0
 
 
 def enter(app: typer.Typer, argv: Sequence[str] | None, *, name: str) -> int:
-    """Run a command line; the exit status. Errors become exactly one line on stderr.
+    """Run a command line; the exit status, as ``guarded`` has it."""
+    from typer import Abort, TyperException
+    from typer.main import get_command
+
+    words = sys.argv[1:] if argv is None else argv
+
+    def main() -> int:
+        command = _asked(app, words)
+        take_plain_values(command)
+        take_leading_minus(command)
+        if misspelt := _misspelt(command, words) and _misspelt(get_command(app), words):
+            raise InputError(f"{misspelt} (see {name} --help)")
+        try:
+            code = command.main(args=None if argv is None else list(argv), prog_name=name, standalone_mode=False)
+        except TyperException as error:
+            message = error.format_message().replace("Value error, ", "").rstrip(".")
+            raise InputError(f"{message} (see {name} --help)") from None
+        except Abort:
+            raise KeyboardInterrupt from None
+        if code == INTERRUPTED:  # typer has taken the interrupt for itself
+            raise KeyboardInterrupt
+        return int(code or OK)
+
+    return guarded(main, words, name=name)
+
+
+def guarded(main: Callable[[], int], words: Sequence[str], *, name: str) -> int:
+    """The exit status of a command that was called with these words. Errors become exactly one line on stderr.
 
     With ``--json`` what went wrong stands on stdout, too, as one object.
     """
     sys.excepthook = _one_line_hook(name)
     sys.set_int_max_str_digits(0)  # the limits on input hold long numbers off, and answers may have them
     _open_streams()
-    words = sys.argv[1:] if argv is None else argv
-    command = _asked(app, words)
-    take_plain_values(command)
-    take_leading_minus(command)
 
     def reported(status: str, message: str, code: int) -> int:
         if "--json" in words:
@@ -75,22 +97,15 @@ def enter(app: typer.Typer, argv: Sequence[str] | None, *, name: str) -> int:
                 return _unheard(name, error)
         return fail(name, _PREFIX.get(status, "") + message, code)
 
-    if misspelt := _misspelt(command, words) and _misspelt(get_command(app), words):
-        return reported("input_error", f"{misspelt} (see {name} --help)", BAD_INPUT)
     before = _raising_at_termination()
     try:
         with _doubts_noted(name, wanted="--plain" not in words):
-            code = command.main(args=None if argv is None else list(argv), prog_name=name, standalone_mode=False)
+            code = main()
         sys.stdout.flush()
-        if code == INTERRUPTED:  # typer has taken the interrupt for itself
-            raise KeyboardInterrupt
-        return int(code or OK)
-    except typer.TyperException as error:
-        message = error.format_message().replace("Value error, ", "").rstrip(".")
-        return reported("input_error", f"{message} (see {name} --help)", BAD_INPUT)
+        return code
     except QEError as error:
         return reported(*_failure(error))
-    except (KeyboardInterrupt, typer.Abort):
+    except KeyboardInterrupt:
         return reported("interrupted", "interrupted", INTERRUPTED)
     except _Terminated:
         return reported("interrupted", "ended by a signal", TERMINATED)
@@ -114,6 +129,8 @@ def enter(app: typer.Typer, argv: Sequence[str] | None, *, name: str) -> int:
 
 def _asked(app: typer.Typer, words: Sequence[str]) -> Any:
     """The commands of an app, or the one alone that the first word names: to build all takes long."""
+    from typer.main import get_command, get_command_name
+
     names = (one.name or get_command_name(one.callback.__name__) for one in app.registered_commands if one.callback)
     named = [one for one, name in zip(app.registered_commands, names) if [name] == [*words[:1]]]
     if named and app.registered_callback:  # without one, typer makes a single command of it

@@ -16,9 +16,10 @@ from typing import TYPE_CHECKING, Any, TextIO, cast
 
 import qe
 from qe.cli.smt_check import Checks, Result
-from qe.cli.source import MOST_BYTES
+from qe.cli.source import MOST_BYTES, no_file, read_source
 from qe.errors import InputError, ParseError, Unable
 from qe.io import surface as s
+from qe.io.formats import Format
 from qe.io.smtlib_parser import Ends, Expression, parse, plain, show
 from qe.io.smtlib_script import Script
 from qe.io.smtlib_words import is_real
@@ -371,8 +372,11 @@ def _word(items: Sequence[Expression], k: int) -> str:
     return word
 
 
-def run(text: str | None, source: str, *, timeout: float | None, memory: int | None, interactive: bool) -> int:
-    """``qe smt``: the commands of a text, then (without one, or ``interactive``) of standard input; the status."""
+def run(script: str, *, timeout: float | None = None, memory: int | None = None, interactive: bool = False) -> int:
+    """``qe smt``: the commands of a file, then (of ``-`` alone, or ``interactive``) of standard input; the status."""
+    source = None if script == "-" else read_source(script, Format.SMTLIB)
+    if source is not None and source.name == "<argument>":
+        raise no_file(script)
     solver = Solver(
         lambda reply: print(reply, flush=True),
         lambda note: print(f"qe: {note}", file=sys.stderr, flush=True),
@@ -380,11 +384,18 @@ def run(text: str | None, source: str, *, timeout: float | None, memory: int | N
         memory=memory,
         each=interactive,
     )
-    if text is not None:
-        solver.run(_pieces(io.StringIO(text)), source)
-    if (text is None or interactive) and not solver.done:
+    if source is not None:
+        solver.run(_pieces(io.StringIO(source.text)), source.name)
+    if (source is None or interactive) and not solver.done:
         solver.run(_pieces(sys.stdin), "<stdin>")
     return 2 if solver.failed else 0
+
+
+def main() -> int:
+    """``qe smt FILE``; returns the exit status."""
+    from qe.cli.shell import guarded
+
+    return guarded(partial(run, sys.argv[2]), sys.argv, name="qe")
 
 
 def _pieces(stream: TextIO) -> Iterator[str]:

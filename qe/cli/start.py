@@ -8,8 +8,9 @@ from importlib import import_module
 
 
 def qe() -> int:
-    """The command ``qe``; returns the exit status."""
-    return _run("qe", "qe.cli.app")
+    """The command ``qe``; returns the exit status. A script alone needs no library that reads options."""
+    is_script = len(sys.argv) == 3 and sys.argv[1] == "smt" and not sys.argv[2].startswith("-")
+    return _run("qe", "qe.cli.smt" if is_script else "qe.cli.app")
 
 
 def bezier() -> int:

@@ -80,6 +80,7 @@ _SYNTAX = KEYWORDS | {
     *("connected", *COUNTS),
 }
 """Those that formulas may have, too."""
+_BEST = rf"(?:{'|'.join(f'{_LEAST} {_GREATEST}'.split())})"
 _DESCRIBED = "|".join((*SIGNED, *f"{_NOUNS} {_LEAST} {_GREATEST}".split()))
 _PIECE = re.compile(
     r"(?P<ARTICLE>[aA](?=\s+(?:real|roots?|solutions?|zero|double|repeated|tangent|constant|straight|triangle|quadratic|non"
@@ -127,9 +128,20 @@ _RULES = (
     (r"\bholds?$|\b(?:is|are) (?:valid|true)(?= for\b)", ""),
     (r"\bfor (?:all|any|every) values of ", "for all "),
     (rf"\bsystem of {_THINGS}", "system "),
+    (rf"(?:(?:is|are) )?({_F}) and ({_F}) (?:are )?both (?:solvable|has roots?)", r"\1 has root and \2 has root"),
     (rf"^(?:solve )?system :? ?({_F})$", r"solve : \1"),
     (rf"^(?:solve )({_F}) for ({_F})$", r"solve for \2 : \1"),
     (rf"^({_F} are [^,.:]+) , (?=prove )", r"let \1 . "),
+    (
+        rf"^find (?:numbers )?{_F} (?:such that ({_F}) )?such that ({_F}) is (?:as )?({_BEST})(?: as possible)?",
+        r"\3 of \2 under \1",
+    ),
+    (r" under (?=subject)| under $", " "),
+    (
+        rf"^(?:(?:given|if|let|suppose|for)(?: that)? )?(.+?) ?[.,]? (?:then )?((?:find|what is) {_BEST}.*)$",
+        r"\2 under \1",
+    ),
+    (rf"\bof expression for (.+?) :? ?({_F})$", r"of \2 for \1"),
     (r"^prove (?:that )?for (?!all|any|every|some)(.+?) ,? ?(?:we has|it holds)(?: that)? ", r"prove if \1 then "),
 )
 """What is said for short in place of what people say, in this order."""
@@ -175,7 +187,6 @@ _ROOTS = re.compile(
     rf"(?: (?:{_PLACE}|(?:that are )?of opposite signs))?"
 )
 _SEPARATED = re.compile(rf"({_F}) has one root {_PLACE} and (?:other|one)(?: root)? {_PLACE}")
-_SOLVABLE = re.compile(rf"(?:is|are )?({_F}) and ({_F}) (?:are )?both (?:solvable|has roots?)")
 _MEETING = re.compile(
     rf"(?:is |does |do )?({_F}) (?:is |are )?(meet|touch|tangent to) ({_F})"
     rf"(?: (?:at|in) ({_COUNT})(?: distinct)* points)?"
@@ -198,23 +209,11 @@ _DOMAIN = re.compile(r"(?:domain\s*=\s*)?S?\.?Reals|real\b|\w+\s*=\s*(?:True|Fal
 _NAMES = re.compile(rf"(?:{LISTED}|[\[({{]\s*(?:{LISTED}(?:\s*,\s*{LISTED})*)?\s*[\])}}])")
 
 _LIST = re.compile(rf"{LISTED}(?:\s*,\s*{LISTED})*")
-_GOAL = (
-    rf"(?:(?:find|what is) )?(?:(?:({_LEAST.replace(' ', '|')})|({_GREATEST.replace(' ', '|')}))"
-    r"(?: possible)?(?: values)?"
-    rf"(?: (?:of|that|which))? ?:? ?(?:{_THINGS})? ?)"
-)
 _SUBJECT = r" ?,? (?:subject to(?: condition)?(?: that)?|such that|given|under|where|when|for|with|over|on|if) :? ?"
-_OPTIMUM = re.compile(rf"{_GOAL}({_F})(?: can take)?(?:{_SUBJECT}(.+))?")
-_EXTREME = re.compile(
-    rf"find (?:numbers )?{_F} (?:such that (?P<given>.+?) )?such that (?P<goal>{_F}) is (?:as )?"
-    rf"(?:(?P<min>{_LEAST.replace(' ', '|')})|{_GREATEST.replace(' ', '|')})(?: as possible)?"
-    rf"(?:{_SUBJECT}(?P<rest>.+))?"
+_OPTIMUM = re.compile(
+    rf"(?:(?:(?:find|what is) )?({_BEST})(?: possible)?(?: values)?(?: (?:of|that|which))? ?:? ?(?:{_THINGS})? ?)?"
+    rf"({_F})(?: can take)?((?:{_SUBJECT}.+)?)"
 )
-"""Variables that are sought where something is greatest or least."""
-_FIRST = re.compile(
-    rf"(?:(?:given|if|let|suppose|for)(?: that)? )?(.+?) ?[.,]? (?:then )?((?:find |what is ){_GOAL}{_F}.*)"
-)
-"""What is given in front of an optimum that is begins for."""
 _OF_TWO = re.compile(rf"\b(product|sum) of ({_F})")
 _INTERVAL = re.compile(r"\s*[\[(][^()\[\]<>=≤≥]*,[^()\[\]<>=≤≥]*[\])]\s*")
 _RELATED = re.compile(r"[<>=≤≥≠∈]")
@@ -247,6 +246,7 @@ class _Sentence:
             if _LIST.fullmatch(left) and _LIST.fullmatch(right):
                 at -= 1
                 self.words = f"{self.words[:at]}{self.put(f'{left}, {right}')}{self.words[two.end() :]}"
+        self.words = _OF_TWO.sub(lambda two: self.put(f"({self.joined(two[1], two[2])})"), self.words)
         for pattern, meant in _RULES:
             self.words = re.sub(" +", " ", re.sub(pattern, meant, self.words)).strip()
 
@@ -309,7 +309,7 @@ def plainly(text: str) -> Question:
     if call := _CALL.fullmatch(short):
         return _called(call[1], call[2])
     if sort := _NOT_REAL.search(short):
-        raise InputError(f"all variables are real, {sort[1]} cannot be begins for")
+        raise InputError(f"all variables are real, {sort[1]} cannot be asked for")
     said = _Sentence(short)
     constants: list[str] = []
     said.words = re.sub(
@@ -345,10 +345,12 @@ def _read(said: _Sentence, known: str) -> Question | None:
         if len(others) != 1:
             raise InputError(f"{unnamed[0]}: the name of a variable expected behind it, as in for all real values of x")
         rest = f"{rest[: unnamed.start()]}for all {others.pop()}"
-    formula = next(
-        filter(None, (kind(said, rest, names) for kind in (_separated, _counted, _solvable, _meeting))), None
-    )
-    formula = formula or _always(said, rest)
+    forms = (_separated, _counted, _meeting, _always)
+    for parts in ([rest], rest.split(" and ")):
+        claims = [next(filter(None, (form(said, part, names) for form in forms)), "") for part in parts]
+        if all(claims):
+            break
+    formula = _both(*claims) if all(claims) else None
     if formula is None and _TRIANGLE.match(rest):
         formula = _premise(said, rest)
     if formula is None and begins:
@@ -490,6 +492,8 @@ def _counted(said: _Sentence, text: str, sought: tuple[str, ...]) -> str | None:
     conditions = [condition for condition in (*signs, _place(said, name, place)) if condition]
     many = "both" if not many and several and conditions else many
     is_opposite, is_double = "opposite" in text, "double" in kinds
+    if many == "no" and "distinct" in kinds:  # none, or one alone
+        return None
     if many == "both" or is_opposite or is_double:
         if (quadratic := _quadratic(equation, name)) is None:
             return None
@@ -522,14 +526,6 @@ def _separated(said: _Sentence, text: str, sought: tuple[str, ...]) -> str | Non
     equation, name = solved
     places = (_place(said, name, list(place)) for place in (two.groups()[1:6], two.groups()[6:]))
     return " and ".join([*quadratic, *(f"(ex {name}. {equation} and {place})" for place in places)])
-
-
-def _solvable(said: _Sentence, text: str, sought: tuple[str, ...]) -> str | None:
-    """``f and g are both solvable``; None for another text."""
-    both = _SOLVABLE.fullmatch(text)
-    solved = [_equation(said[one], sought) for one in both.groups()] if both else []
-    listed = [f"(ex {one[1]}. {one[0]})" for one in solved if one]
-    return " and ".join(listed) if len(listed) == 2 else None
 
 
 def _meeting(said: _Sentence, text: str, sought: tuple[str, ...]) -> str | None:
@@ -573,7 +569,7 @@ def _place(said: _Sentence, name: str, place: list[str | None]) -> str:
     return f"{name} {'<' if side == 'less' else '>'} {bound}" if side else ""
 
 
-def _always(said: _Sentence, text: str) -> str | None:
+def _always(said: _Sentence, text: str, sought: tuple[str, ...]) -> str | None:
     """``is f positive for all x``; None for another text."""
     always = _ALWAYS.fullmatch(text)
     if always is None or not (always[1] or always[4] or always[6]):
@@ -590,30 +586,18 @@ def optimum_in_words(text: str) -> tuple[int, str, str] | None:
     """1 or -1 (0 without a word for it), the objective and the conditions of ``minimize f subject to c``, ``f, c``,
     ``given c, find the least value of f``; None for another text."""
     said = _Sentence(_typed(text))
-    if said.has_others(text):
-        said.words = ""
-    said.words = _OF_TWO.sub(lambda two: said.put(f"({said.joined(two[1], two[2])})"), said.words)
-    said.words = re.sub(rf"\bof expression for (.+?) :? ?({_F})$", r"of \2 for \1", said.words)
-    if extreme := _EXTREME.fullmatch(said.words):
-        known = " and ".join(filter(None, (extreme["given"], extreme["rest"])))
-        return _optimum(1 if extreme["min"] else -1, said[extreme["goal"]], _premise(said, known))
-    conditions = ""
-    given = _FIRST.fullmatch(said.words)
-    if given:
-        conditions, said.words = _premise(said, given[1]), given[2]
-    if goal := _OPTIMUM.fullmatch(said.words):
-        objective, more = said[goal[3]], _premise(said, goal[4] or "")
-        objective, behind = _at_comma(objective)
-        return _optimum(1 if goal[1] else -1, objective, ", ".join(filter(None, (conditions, behind, more))))
-    if given:
-        return None
-    parts = re.fullmatch(rf"({_F}){_SUBJECT}(.+)", said.words)
-    objective, conditions = (said[parts[1]], _premise(said, parts[2])) if parts else _at_comma(text)
-    return _optimum(0, objective, conditions) if conditions else None
+    goal = None if said.has_others(text) else _OPTIMUM.fullmatch(said.words)
+    if goal is None or not (goal[1] or goal[3]):
+        objective, conditions = _at_comma(text)
+        return _optimum(0, objective, conditions) if conditions else None
+    objective, behind = _at_comma(said[goal[2]])
+    under = [_premise(said, part) for part in re.split(_SUBJECT, goal[3]) if part]
+    sign = 0 if goal[1] is None else 1 if goal[1] in _LEAST.split() else -1
+    return _optimum(sign, objective, ", ".join(filter(None, (*under[::-1], behind))))
 
 
 def _optimum(sign: int, objective: str, conditions: str) -> tuple[int, str, str]:
-    """An optimum that is begins for; its conditions may be an interval for the only variable."""
+    """An optimum that is asked for; its conditions may be an interval for the only variable."""
     names = {*re.findall(WORD, objective)}.difference(FUNCTIONS)
     if _INTERVAL.fullmatch(conditions) and len(names) == 1:
         conditions = f"{names.pop()} in {conditions}"

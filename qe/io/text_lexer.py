@@ -276,8 +276,8 @@ class State:
 
     def put(self, kind: str, value: str, at: int) -> Iterator[Token]:
         """The token, with the sign of a product in front of it where that is left out."""
-        said = kind == "NAME" and self.header and value in NO_VARIABLES
-        if said and (self.last == "NAME" or _ANOTHER.match(self.text, at + len(value))):
+        follows = self.last == "NAME" or _ANOTHER.match(self.text, at + len(value))
+        if kind == "NAME" and self.header and value in NO_VARIABLES and follows:
             raise SyntaxFailure(NO_VARIABLES[value], at)
         if kind == "AND" and self.spoken and self.header:  # for all x and y
             behind = at + len(value)
