@@ -128,5 +128,5 @@ def test_the_command_that_is_named_is_built_alone_and_says_what_it_said(
         return shell.enter(app, words, name="prog"), *capsys.readouterr()
 
     alone = said()
-    monkeypatch.setattr(shell, "_asked", lambda app, words: shell.get_command(app))
+    monkeypatch.setattr(shell, "_asked", lambda app, words: typer.main.get_command(app))
     assert alone == said()
