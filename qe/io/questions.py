@@ -183,7 +183,7 @@ _NOT_REAL = re.compile(
 _UNNAMED = re.compile(r"\bfor (?:all|every|any) values$")
 _ROOTS = re.compile(
     rf"(quadratic )?(system )?({_F}) (?:to )?has (?:({_COUNT}) )?{_KINDS}(?:root(s?))"
-    rf"(?: (?:(?:which|that) are )?((?:and|{_SIGN}| )+?))?(?: (?:in|for) ({_F}))??"
+    rf"(?: (?:(?:which|that) are )?((?:and|{_SIGN}| )+?))?(?: for ({_F}))?"
     rf"(?: (?:{_PLACE}|(?:that are )?of opposite signs))?"
 )
 _SEPARATED = re.compile(rf"({_F}) has one root {_PLACE} and (?:other|one)(?: root)? {_PLACE}")
@@ -479,6 +479,8 @@ def _counted(said: _Sentence, text: str, sought: tuple[str, ...]) -> str | None:
         return None
     is_quadratic, is_system, whose, many, kinds, several, also, named, *place = counted.groups()
     whose, many = said[whose], many or ""
+    if place[0] and re.fullmatch(LISTED, said[place[0]]):  # in x
+        named, place = place[0], [None] * 5
     if is_system:
         names = [name for name in _names(whose) if name not in sought]
         exists = {"": "ex", "no": "not ex"}.get(many)
