@@ -75,11 +75,6 @@ holds hold holds
 }  # fmt: skip
 """The words of questions, with the one that stands for several, or the comma for those that say nothing: all variables
 are real."""
-_SYNTAX = KEYWORDS | {
-    *("for", "such", "that", "there", "with", "at", "no", "infinitely", "many", "but", "finitely", "almost"),
-    *("connected", *COUNTS),
-}
-"""Those that formulas may have, too."""
 _BEST = rf"(?:{'|'.join(f'{_LEAST} {_GREATEST}'.split())})"
 _DESCRIBED = "|".join((*SIGNED, *f"{_NOUNS} {_LEAST} {_GREATEST}".split()))
 _PIECE = re.compile(
@@ -89,6 +84,7 @@ _PIECE = re.compile(
 )
 _F = r"§\d+"
 _SIGN = rf"(?:{'|'.join(SIGNED)})"
+_STRAY = re.compile(rf"(?<!all )(?<!any )(?<!every )(?<!some )\b{_SIGN}\b")
 _COUNT = rf"{QUANTITY}|{'|'.join(COUNTS)}|no|only one|both"
 _KINDS = rf"((?:(?:distinct|double|and|{_SIGN}) )*)"
 _PLACE = (
@@ -284,7 +280,7 @@ class _Sentence:
 
     def names(self, part: str) -> list[str]:
         """The names in a list."""
-        return re.findall(LISTED, self[part])
+        return [unquoted(name) if name[0] == "`" else name for name in re.findall(LISTED, self[part])]
 
     def joined(self, how: str, listed: str) -> str:
         """The product or the sum of the variables in a list."""
@@ -318,14 +314,8 @@ def plainly(text: str) -> Question:
         said.words,
     ).strip()
     question = _read(said, " and ".join(filter(None, constants)))
-    is_clear = question is not None and _is_formula(question.formula) and not said.has_others(text)
+    is_clear = question is not None and not said.has_others(text) and not _STRAY.search(question.formula)
     return question if question is not None and is_clear else Question(text)
-
-
-def _is_formula(text: str) -> bool:
-    """Whether no words of sentences are in a formula, but where quantifiers have them."""
-    text = re.sub(rf"\b(?:all|any|every|some|is|are|exists|least|most|exactly)(?: {_SIGN})? (?:numbers )?", "", text)
-    return not any(word in _VOCABULARY for word in re.findall(WORD, text) if word not in _SYNTAX)
 
 
 def _read(said: _Sentence, known: str) -> Question | None:
@@ -336,8 +326,7 @@ def _read(said: _Sentence, known: str) -> Question | None:
         return Question(_closed(_claim(said[given[2]]), _both(known, _premise(said, given[1]))))
     begins = _ASKED.fullmatch(words)
     rest = begins["rest"] if begins else words
-    listed = said.names(begins["for"] or begins["sought"] or "") if begins else ()
-    names = tuple(unquoted(name) if name[0] == "`" else name for name in listed)
+    names = tuple(said.names(begins["for"] or begins["sought"] or "")) if begins else ()
     for name in names:
         said.formulas[:] = [re.sub(rf"(?<!\w)({re.escape(name)})\(", r"\1*(", one) for one in said.formulas]
     if unnamed := _UNNAMED.search(rest):
