@@ -276,9 +276,9 @@ class State:
 
     def put(self, kind: str, value: str, at: int) -> Iterator[Token]:
         """The token, with the sign of a product in front of it where that is left out."""
-        if kind == "NAME" and self.header and value in NO_VARIABLES:
-            if self.last == "NAME" or _ANOTHER.match(self.text, at + len(value)):
-                raise SyntaxFailure(NO_VARIABLES[value], at)
+        said = kind == "NAME" and self.header and value in NO_VARIABLES
+        if said and (self.last == "NAME" or _ANOTHER.match(self.text, at + len(value))):
+            raise SyntaxFailure(NO_VARIABLES[value], at)
         if kind == "AND" and self.spoken and self.header:  # for all x and y
             behind = at + len(value)
             kind = "COMMA" if self.goes_on(behind) or self.bounds_another(behind) else kind
