@@ -60,21 +60,12 @@ values value values
 exists exist exists
 holds hold holds
 , the an its real also following your
-""") | {
-    word: word
-    for words in (
-        "and or not for all every any some if then let suppose given assume is are it of on at to that which what where"
-        " when with under over do does will can may must only exactly least most no both two one three four five six"
-        " infinitely many but finitely almost connected solve system quadratic opposite between than other always valid"
-        " true false range set possible take exact there as tangent triangle side lengths product sum here note we"
-        " check decide whether by order satisfied straight subject giving answer answers surd form decimal places"
-        " interval open closed solvable disprove denote",
-        *SIGNED, _NOUNS, _LEAST, _GREATEST,
-    )
-    for word in words.split()
-}  # fmt: skip
-"""The words of questions, with the one that stands for several, or the comma for those that say nothing: all variables
-are real."""
+""")
+"""Words that several say, or the comma for those that say nothing: all variables are real."""
+_SHORT = frozenset(
+    ["and", "or", "not", "for", "all", "any", "if", "let", "are", "it", "of", "on", "at", "to", "is", "as", "by", "be", "do", "in", "has", "two", "one", "no", "we", "min", "max", "every", "such", "that", "with", "there"]
+)
+"""Words of sentences that are short, or may stand in formulas."""
 _BEST = rf"(?:{'|'.join(f'{_LEAST} {_GREATEST}'.split())})"
 _DESCRIBED = "|".join((*SIGNED, *f"{_NOUNS} {_LEAST} {_GREATEST}".split()))
 _PIECE = re.compile(
@@ -223,13 +214,15 @@ class _Sentence:
 
     def __init__(self, text: str) -> None:
         self.formulas: list[str] = []
+        self.letters = {*re.findall(r"(?<![^\W\d_])[^\W\d_](?![^\W\d_])", text)}
         words: list[str] = []
         segment = ""
         text = re.sub(r"\b([Nn])on[-\s]+(?=negative|zero|positive)", r"\1on", re.sub(r"\bs\.\s?t\.", "such that", text))
         for piece in _PIECE.finditer(text):
             word = (piece["WORD"] or "").lower()
-            if word in _VOCABULARY or (piece["ARTICLE"] and not _OPERATOR.search(segment)):
-                words += [*self._segment(segment), _VOCABULARY.get(word, ",").strip(",")]
+            is_word = word in _VOCABULARY or word in _SHORT or (len(word) > 2 and not self._is_formula(word))
+            if is_word or (piece["ARTICLE"] and not _OPERATOR.search(segment)):
+                words += [*self._segment(segment), _VOCABULARY.get(word, word).strip(",")]
                 segment = ""
             else:
                 segment += piece[0]
@@ -246,15 +239,9 @@ class _Sentence:
         for pattern, meant in _RULES:
             self.words = re.sub(" +", " ", re.sub(pattern, meant, self.words)).strip()
 
-    def has_others(self, text: str) -> bool:
-        """Whether there are words in the text that are neither known nor names or products of names."""
-        words = re.findall(r"(?<![\\\w`{])([^\W\d_]{4,})(?![\w`(\[]|\s*(?:[\^*/<>≤≥]|=))", text)
-        letters = {*re.findall(r"(?<![^\W\d_])[^\W\d_](?![^\W\d_])", text)}
-        known = {*_VOCABULARY, *map(str.lower, (*KEYWORDS, *FUNCTIONS))}
-        return any(
-            word.lower() not in known and not is_product(word, letters) and not LETTERS.fullmatch(word)
-            for word in words
-        )
+    def _is_formula(self, word: str) -> bool:
+        """Whether a word can stand in a formula: a function, a product, a Greek letter."""
+        return word in FUNCTIONS or is_product(word, self.letters) or LETTERS.fullmatch(word) is not None
 
     def _segment(self, text: str) -> list[str]:
         """A formula between two words, and the signs of punctuation around it."""
@@ -314,7 +301,7 @@ def plainly(text: str) -> Question:
         said.words,
     ).strip()
     question = _read(said, " and ".join(filter(None, constants)))
-    is_clear = question is not None and not said.has_others(text) and not _STRAY.search(question.formula)
+    is_clear = question is not None and not _STRAY.search(question.formula)
     return question if question is not None and is_clear else Question(text)
 
 
@@ -409,7 +396,7 @@ def _names(text: str) -> tuple[str, ...]:
     from qe.io.text_lexer import CALLS
     from qe.io.text_parser import products
 
-    no_names = {*KEYWORDS, *FUNCTIONS, *CALLS, *NO_VARIABLES, *_VOCABULARY}
+    no_names = {*KEYWORDS, *FUNCTIONS, *CALLS, *NO_VARIABLES, *_VOCABULARY, *_SHORT}
     words = [word for word in re.findall(LISTED, text) if word not in no_names]
     made = products(text)
     return tuple(dict.fromkeys(name for word in words for name in (word if word in made else [word])))
@@ -577,7 +564,7 @@ def optimum_in_words(text: str) -> tuple[int, str, str] | None:
     """1 or -1 (0 without a word for it), the objective and the conditions of ``minimize f subject to c``, ``f, c``,
     ``given c, find the least value of f``; None for another text."""
     said = _Sentence(_typed(text))
-    goal = None if said.has_others(text) else _OPTIMUM.fullmatch(said.words)
+    goal = _OPTIMUM.fullmatch(said.words)
     if goal is None or not (goal[1] or goal[3]):
         objective, conditions = _at_comma(text)
         return _optimum(0, objective, conditions) if conditions else None
