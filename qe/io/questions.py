@@ -62,8 +62,9 @@ holds hold holds
 , the an its real also following your
 """)
 """Words that several say, or the comma for those that say nothing: all variables are real."""
-_SHORT = frozenset(
-    ["and", "or", "not", "for", "all", "any", "if", "let", "are", "it", "of", "on", "at", "to", "is", "as", "by", "be", "do", "in", "has", "two", "one", "no", "we", "min", "max", "every", "such", "that", "with", "there"]
+_SHORT = (
+    "and or not for all any if let are it of on at to is as by be do in has two one no we min max every such that with"
+    " there"
 )
 """Words of sentences that are short, or may stand in formulas."""
 _BEST = rf"(?:{'|'.join(f'{_LEAST} {_GREATEST}'.split())})"
@@ -220,7 +221,7 @@ class _Sentence:
         text = re.sub(r"\b([Nn])on[-\s]+(?=negative|zero|positive)", r"\1on", re.sub(r"\bs\.\s?t\.", "such that", text))
         for piece in _PIECE.finditer(text):
             word = (piece["WORD"] or "").lower()
-            is_word = word in _VOCABULARY or word in _SHORT or (len(word) > 2 and not self._is_formula(word))
+            is_word = word in _VOCABULARY or word in _SHORT.split() or (len(word) > 2 and not self._is_formula(word))
             if is_word or (piece["ARTICLE"] and not _OPERATOR.search(segment)):
                 words += [*self._segment(segment), _VOCABULARY.get(word, word).strip(",")]
                 segment = ""
@@ -396,7 +397,7 @@ def _names(text: str) -> tuple[str, ...]:
     from qe.io.text_lexer import CALLS
     from qe.io.text_parser import products
 
-    no_names = {*KEYWORDS, *FUNCTIONS, *CALLS, *NO_VARIABLES, *_VOCABULARY, *_SHORT}
+    no_names = {*KEYWORDS, *FUNCTIONS, *CALLS, *NO_VARIABLES, *_VOCABULARY, *_SHORT.split()}
     words = [word for word in re.findall(LISTED, text) if word not in no_names]
     made = products(text)
     return tuple(dict.fromkeys(name for word in words for name in (word if word in made else [word])))
