@@ -221,7 +221,11 @@ class _Sentence:
         text = re.sub(r"\b([Nn])on[-\s]+(?=negative|zero|positive)", r"\1on", re.sub(r"\bs\.\s?t\.", "such that", text))
         for piece in _PIECE.finditer(text):
             word = (piece["WORD"] or "").lower()
-            is_word = word in _VOCABULARY or word in _SHORT.split() or (len(word) > 2 and not self._is_formula(word))
+            is_word = (
+                word in _VOCABULARY
+                or word in _SHORT.split()
+                or (len(word) > 2 and word.isalpha() and not self._is_formula(word))
+            )
             if is_word or (piece["ARTICLE"] and not _OPERATOR.search(segment)):
                 words += [*self._segment(segment), _VOCABULARY.get(word, word).strip(",")]
                 segment = ""
