@@ -42,8 +42,7 @@ NO_VARIABLES = {
     ),
     **dict.fromkeys(("integer", "integers", "natural", "rational", "complex"), "all variables are real"),
     **dict.fromkeys(
-        ("an", "the", "no", "at", "one", "two", "only", "some", "given", "many", "infinitely", "real", "number", "st")
-        + ("distinct", "different", "numbers"),
+        ("an", "the", "no", "at", "one", "two", "only", "some", "given", "many", "infinitely", "real", "number", "st"),
         "names of variables alone stand behind a quantifier, with commas between them: exists x, y: …",
     ),
 }
