@@ -181,8 +181,10 @@ _MEETING = re.compile(
 )
 _ALWAYS = re.compile(rf"(is )?({_F}) (?:(is|be) )?(always )?({_SIGN})(?: (for (?:all|every|any) .*))?")
 _BOUND = re.compile(
-    rf"(?:[∃∀]|\b(?:[Ff]or\s+(?:all|every|any|some)|{THERE}|ex|all|exists|forall|Ex|All|Exists|ForAll)\b)"
-    rf"[\s(\[{{]*(?:(?:reals?|numbers?|an?|some|{_SIGN})\s+)*({LISTED}(?:\s*(?:,|and)\s*{LISTED})*)"
+    rf"(?:[∃∀]|\b(?:[Ff]or\s+(?:all|every|any|some)|(?:{THERE}\s+)?(?:{QUANTITY})|{THERE}"
+    r"|[Ee]x|[Aa]ll|[Ee]xists|[Ff]or[Aa]ll)\b)"
+    rf"(?:[\[(]\s*({LISTED})\s*,(?![\w\s,]*[)\]])"  # ForAll[x, f]
+    rf"|[\s(\[{{]*(?:(?:reals?|numbers?|an?|some|{_SIGN})\s+)*({LISTED}(?:\s*(?:,|and)\s*{LISTED})*))"
 )
 """The variables of a quantifier."""
 _CALL = re.compile(
@@ -190,6 +192,7 @@ _CALL = re.compile(
     r"|(?<=:-)simplify)\]?\((.*)\)\s*[;:]?",
     re.DOTALL,
 )
+_PROVED = ("prove", "bool")
 _ASSUMES = re.compile(r"\s*(Assuming|(?:Full)?Simplify|Refine)\[(.*)\]\s*", re.DOTALL)
 _WITHIN = re.compile(r"(?:domain\s*=\s*)?Interval(?:\.([LR]?)open)?\(\s*([^,()]+),\s*([^,()]+)\)")
 """An interval of SymPy."""
@@ -288,6 +291,8 @@ def plainly(text: str) -> Question:
     two = [*split(call[2])] if call else []
     if call and len(two) == 2 and "->" not in two[1]:
         condition, body = two if call[1] == "Assuming" else reversed(two)
+        if (proved := _CALL.fullmatch(body)) and proved[1] in _PROVED:
+            return _called(proved[1], proved[2], condition)
         return plainly(body.replace("$Assumptions", condition))._replace(assumed=condition)
     short = _typed(text.strip()) if len(text) < LONGEST else ""
     if not short:
@@ -338,7 +343,10 @@ def _read(said: _Sentence, known: str) -> Question | None:
         formula = said[rest]
         if begins["proved"]:
             return Question(_closed(_claim(formula), known))
-    return None if formula is None else Question(_both(known, formula), names)
+    if formula is None:
+        return None
+    _no_other_variables(known, formula)
+    return Question(_both(known, formula), names)
 
 
 def _both(*parts: str) -> str:
@@ -348,10 +356,22 @@ def _both(*parts: str) -> str:
 # --- what is to be proved ---------------------------------------------------------------------------------
 def _closed(claim: str, given: str = "") -> str:
     """A claim for all values of its variables that no quantifier of its own has."""
+    _no_other_variables(given, claim)
     whole = f"({given}) -> ({claim})" if given else claim
-    bound = {name for match in _BOUND.finditer(whole) for name in re.findall(LISTED, match[1])}
+    bound = _bound(whole)
     names = [name for name in _names(whole) if name not in bound]
     return f"all {', '.join(names)}. {whole}" if names else whole
+
+
+def _bound(text: str) -> set[str]:
+    return {name for match in _BOUND.finditer(text) for name in re.findall(LISTED, match[1] or match[2])}
+
+
+def _no_other_variables(given: str, claim: str) -> None:
+    """Raises ``InputError`` for a variable of a condition that a quantifier behind it binds again: the condition says
+    nothing of that one, whatever the text means."""
+    if hidden := {*_names(given)} & _bound(claim) - _bound(given):
+        raise InputError(f"{', '.join(sorted(hidden))}: bound by a quantifier that the condition {given} is outside of")
 
 
 def _claim(text: str) -> str:
@@ -595,8 +615,8 @@ def _at_comma(text: str) -> tuple[str, str]:
 
 
 # --- other systems ----------------------------------------------------------------------------------------
-def _called(command: str, inside: str) -> Question:
-    """``solve([f, g], [x, y])`` of SymPy and Maple, ``solve(f, g)`` and ``prove(f)`` of Z3."""
+def _called(command: str, inside: str, condition: str = "") -> Question:
+    """``solve([f, g], [x, y])`` of SymPy and Maple, ``solve(f, g)`` and ``prove(f)`` of Z3, under a condition."""
     inside = re.sub(
         r"&([AE])\s*\[([\w\s,]*)\]\s*,",
         lambda q: f"{'all' if q[1] == 'A' else 'ex'} {q[2].replace(',', ' ')}.",
@@ -614,7 +634,7 @@ def _called(command: str, inside: str) -> Question:
         left, right = "[" if within[1] in (None, "R") else "(", "]" if within[1] in (None, "L") else ")"
         related = _RELATED.search(formula) or re.match(r"(?:Eq|Ne|[GL][te]|And|Or)\(", formula)
         formula = f"{formula if related else f'{formula} = 0'} and {names[0]} in {left}{within[2]}, {within[3]}{right}"
-    return Question(_closed(formula) if command in ("prove", "bool") else formula, tuple(names))
+    return Question(_closed(formula, condition) if command in _PROVED else formula, tuple(names))
 
 
 def _typed(text: str) -> str:

@@ -29,7 +29,6 @@ _SAID = re.compile(rf"(?:({WORD})\s*:?=(?![=>])\s*|(print)\s*(?=\())(.+)", re.DO
 _FUNCTION = re.compile(r"(\w+)\[((?:\s*\w+_\s*,?)+)\]\s*:?=\s*(.+)", re.DOTALL)
 _ADDED = re.compile(r"(?:\w+\.(?:add|append|insert)|(assume))\((.*)\)", re.DOTALL)
 _CALL = re.compile(r"[A-Za-z][\w.:\-]*[(\[]")
-_PROVED = re.compile(r"(?:prove|bool)\((.*)\)", re.DOTALL)
 _ASSUMED = re.compile(r"(\w+)\s*=\s*(?:True|1)|domain\s*=\s*['\"](\w+)['\"]")
 _OF_QEPCAD = {"and_": "And", "or_": "Or", "not_": "Not", "exists": "Exists", "forall": "ForAll", "implies": "Implies"}
 
@@ -89,8 +88,6 @@ def last_command(text: str) -> str:
         unused = f", and a use of {', '.join(sorted(idle))}" if idle else ""
         raise InputError(f"one question at the end of a script expected{unused}")
     question = question or f"{{{', '.join(conditions)}}}"
-    if known and (proved := _PROVED.fullmatch(question)):
-        return f"prove(Implies({' && '.join(known)}, {proved[1]}))"
     return f"Assuming[{' && '.join(known)}, {question}]" if known else question
 
 

@@ -71,3 +71,24 @@ def test_the_answer_of_a_script_with_assumptions() -> None:
     """It is right where they hold and does not repeat them."""
     assert str(qe.eliminate("Assuming[m > 0, ex x. 0 < x < m and x*y = 1]").formula) == "m*y > 1"
     assert qe.solve("x = symbols('x', positive=True)\nsolve(x**2 - 4, x)").lines == ("x = 2",)
+
+
+@each(
+    "y = symbols('y', positive=True)\nprove(ForAll(y, y > 0))",
+    "y = symbols('y', positive=True)\nForAll(y, y > 0)",
+    "Assuming[y > 0, Resolve[ForAll[y, y > x], Reals]]",
+    "Simplify[Exists[y, y < 0], y > 0]",
+    "let y be positive. prove that ex y. y < 0",
+    "let y be positive. prove that there are exactly two y such that y^2 = 4",
+    "find x such that x = -a for some a where a is positive",
+)
+def test_a_condition_on_a_variable_that_a_quantifier_binds_again_is_refused(typed: str) -> None:
+    """Read beside the quantifier it says nothing: of two numbers whose square is 4 only one is positive."""
+    with pytest.raises(qe.InputError, match="(y|a)\\b.* bound"):
+        qe.eliminate(typed)
+
+
+def test_a_quantifier_as_a_function_binds_its_first_name_alone() -> None:
+    assert qe.decide("x = symbols('x', positive=True)\nprove(ForAll(y, x + y**2 > 0))")
+    assert not qe.decide("prove(ForAll(y, x + y**2 > 0))")
+    assert qe.decide("prove(ForAll([y, x], x**2 + y**2 >= 0))")
