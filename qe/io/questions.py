@@ -114,8 +114,6 @@ _RULES = (
     ("that are +(?=lie|in|between|greater|less)", "that "),
     (r" has (?:(?:all|both) roots|only roots|all its roots)(?: real)?$", " has both roots"),
     (r"\bholds?$|\b(?:is|are) (?:valid|true)(?= for\b)", ""),
-    (r"\bfor (?:all|any|every) values of ", "for all "),
-    (rf"\bsystem of {_THINGS}", "system "),
     (rf"(?:(?:is|are) )?({_F}) and ({_F}) (?:are )?both (?:solvable|has roots?)", r"\1 has root and \2 has root"),
     (rf"^(?:solve )?system :? ?({_F})$", r"solve : \1"),
     (rf"^(?:solve )({_F}) for ({_F})$", r"solve for \2 : \1"),

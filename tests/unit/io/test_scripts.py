@@ -84,7 +84,7 @@ def test_the_answer_of_a_script_with_assumptions() -> None:
 )
 def test_a_condition_on_a_variable_that_a_quantifier_binds_again_is_refused(typed: str) -> None:
     """Read beside the quantifier it says nothing: of two numbers whose square is 4 only one is positive."""
-    with pytest.raises(qe.InputError, match="(y|a)\\b.* bound"):
+    with pytest.raises(qe.InputError, match=r"(y|a)\b.* bound"):
         qe.eliminate(typed)
 
 
