@@ -178,13 +178,6 @@ _MEETING = re.compile(
     rf"(?: (?:at|in) ({_COUNT})(?: distinct)* points)?"
 )
 _ALWAYS = re.compile(rf"(is )?({_F}) (?:(is|be) )?(always )?({_SIGN})(?: (for (?:all|every|any) .*))?")
-_BOUND = re.compile(
-    rf"(?:[∃∀]|\b(?:[Ff]or\s+(?:all|every|any|some)|(?:{THERE}\s+)?(?:{QUANTITY})|{THERE}"
-    r"|[Ee]x|[Aa]ll|[Ee]xists|[Ff]or[Aa]ll)\b)"
-    rf"(?:[\[(]\s*({LISTED})\s*,(?![\w\s,]*[)\]])"  # ForAll[x, f]
-    rf"|[\s(\[{{]*(?:(?:reals?|numbers?|an?|some|{_SIGN})\s+)*({LISTED}(?:\s*(?:,|and)\s*{LISTED})*))"
-)
-"""The variables of a quantifier."""
 _CALL = re.compile(
     r"(?:\w+(?:\.|:-))*(?:SolveTools\[)?((?:n|f|lin|nonlin)?solve\w*|reduce_\w+|prove|bool|qepcad|QuantifierElimination|SemiAlgebraic"
     r"|(?<=:-)simplify)\]?\((.*)\)\s*[;:]?",
@@ -362,7 +355,9 @@ def _closed(claim: str, given: str = "") -> str:
 
 
 def _bound(text: str) -> set[str]:
-    return {name for match in _BOUND.finditer(text) for name in re.findall(LISTED, match[1] or match[2])}
+    from qe.io.text_parser import lexed
+
+    return lexed(text).bound
 
 
 def _no_other_variables(given: str, claim: str) -> None:

@@ -210,6 +210,7 @@ def tokens(text: str, state: State | None = None) -> Iterator[Token]:
         if state.last == "QUANTIFIER" and (sort := SORT.match(text, at, end)) is not None:
             at, state.signed = sort.end(), SIGNED.get(sort[1], "")
     yield from state.signs(end)
+    state.is_read = True
 
 
 def _number(value: str, state: State, text: str, at: int) -> str:
@@ -252,7 +253,7 @@ class State:
     ``header``: inside a ``quantifier``, before its body, which may follow a comma where ``spoken``; ``bounded``: a
     condition stands behind the last of its variables; ``within``: the level of brackets at which the set ends that its
     variables lie in; ``behind`` its formula; ``signed``: a comparison with zero that holds of them. ``brackets``: of
-    those that are open, from outside; ``closed``: whether the last one that ended held a term.
+    those that are open, from outside; ``closed``: whether the last one that ended held a term. ``is_read``: whether all of it is.
     """
 
     def __init__(self, text: str) -> None:
@@ -272,7 +273,7 @@ class State:
         self.letters = {name for name in self.bound | quantified if len(name) == 1}
         self.words: Counter[str] | None = None
         self.alone = self.names = Counter[str]()
-        self.products, self.kept = set[str](), set[str]()
+        self.products, self.kept, self.is_read = set[str](), set[str](), False
 
     def put(self, kind: str, value: str, at: int) -> Iterator[Token]:
         """The token, with the sign of a product in front of it where that is left out."""

@@ -294,9 +294,14 @@ def _compared(token: Token, sides: list[s.Term]) -> s.Node:
 
 def products(text: str, letters: Collection[str] = ()) -> set[str]:
     """The words that are read as products, ``letters`` being variables that are solved for; none in what is wrong."""
+    state = lexed(text, letters)
+    return state.products if state.is_read else set()
+
+
+def lexed(text: str, letters: Collection[str] = ()) -> text_lexer.State:
+    """What the tokens of a text say of its words, up to where it goes wrong."""
     state = text_lexer.State(text)
     state.letters.update(letters)
     with suppress(SyntaxFailure):
         deque(() if is_latex(text) else text_lexer.tokens(text, state), maxlen=0)
-        return state.products
-    return set()
+    return state
