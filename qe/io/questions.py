@@ -20,7 +20,7 @@ from qe.io.parser import TERM, parsed
 from qe.io.scripts import last_command
 from qe.io.surface import FUNCTIONS
 from qe.io.text_errors import Failing
-from qe.io.text_words import COUNTS, LISTED, NO_VARIABLES, QUANTITY, SIGNED, THERE, Question, split
+from qe.io.text_words import COUNTS, LISTED, NO_VARIABLES, QUANTITY, SIGNED, Question, split
 from qe.io.tokens import kinds
 from qe.spelling import KEYWORDS, QUOTED, WORD, is_product, unquoted
 

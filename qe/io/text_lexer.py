@@ -253,7 +253,8 @@ class State:
     ``header``: inside a ``quantifier``, before its body, which may follow a comma where ``spoken``; ``bounded``: a
     condition stands behind the last of its variables; ``within``: the level of brackets at which the set ends that its
     variables lie in; ``behind`` its formula; ``signed``: a comparison with zero that holds of them. ``brackets``: of
-    those that are open, from outside; ``closed``: whether the last one that ended held a term. ``is_read``: whether all of it is.
+    those that are open, from outside; ``closed``: whether the last one that ended held a term. ``is_read``: no
+    token is missing.
     """
 
     def __init__(self, text: str) -> None:
