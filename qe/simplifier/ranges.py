@@ -122,16 +122,12 @@ def describe(own: Range, base: Range, as_equations: bool) -> list[tuple[Relation
     if own.point is not None:
         return [(Relation.EQ, own.point)]
     out: list[tuple[Relation, Fraction]] = []
-    if own.lo is not None and (own.lo, own.lo_open) != (base.lo, base.lo_open):
-        if as_equations and own.lo == base.lo:
-            out.append((Relation.NE, own.lo))
-        else:
-            out.append((Relation.GT if own.lo_open else Relation.GE, own.lo))
-    if own.hi is not None and (own.hi, own.hi_open) != (base.hi, base.hi_open):
-        if as_equations and own.hi == base.hi:
-            out.append((Relation.NE, own.hi))
-        else:
-            out.append((Relation.LT if own.hi_open else Relation.LE, own.hi))
+    low = own.lo, own.lo_open, (base.lo, base.lo_open), (Relation.GE, Relation.GT)
+    high = own.hi, own.hi_open, (base.hi, base.hi_open), (Relation.LE, Relation.LT)
+    for end, is_open, known, relations in (low, high):
+        if end is not None and (end, is_open) != known:
+            is_open = is_open and not (as_equations and end in base.holes)  # so that its negation is strict
+            out.append((Relation.NE if as_equations and end == known[0] else relations[is_open], end))
     out += [(Relation.NE, h) for h in sorted(own.holes - base.holes)]
     return out
 

@@ -90,6 +90,8 @@ def test_assumptions_decide(text: str, given_: str, simple: str) -> None:
     "x > 1 and ex x. (x < 0 and x + y > 0)",
     "x >= 0 and x + y >= 0 and y < 3",
     "x^2 - 2*x*y + y^2 + z <= 0",
+    "p /= 0 and (p < 0 or q > 0)",  # was p <= 0
+    "p /= 0 and (p > 0 or q > 0)",
 )
 def test_nothing_to_do(kept: str) -> None:
     given = read(kept)
