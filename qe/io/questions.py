@@ -16,10 +16,13 @@ from qe.exact.ring import Poly
 from qe.formula.build import atom
 from qe.formula.relation import Relation
 from qe.io.latex_lexer import LETTERS, as_text, is_latex
+from qe.io.lowering import lower_term
 from qe.io.parser import TERM, parsed
 from qe.io.scripts import last_command
 from qe.io.surface import FUNCTIONS
 from qe.io.text_errors import Failing
+from qe.io.text_lexer import CALLS
+from qe.io.text_parser import TextParser, lexed, products
 from qe.io.text_words import COUNTS, LISTED, NO_VARIABLES, QUANTITY, SIGNED, Question, split
 from qe.io.tokens import kinds
 from qe.spelling import KEYWORDS, QUOTED, WORD, is_product, unquoted
@@ -199,8 +202,6 @@ _OPTIMUM = re.compile(
 _OF_TWO = re.compile(rf"\b(product|sum) of ({_F})")
 _INTERVAL = re.compile(r"\s*[\[(][^()\[\]<>=≤≥]*,[^()\[\]<>=≤≥]*[\])]\s*")
 _RELATED = re.compile(r"[<>=≤≥≠∈]")
-
-
 _OPERATOR = re.compile(r"[-+*/^=<>(,]\s*$")
 
 
@@ -334,10 +335,9 @@ def _read(said: _Sentence, known: str) -> Question | None:
         formula = said[rest]
         if begins["proved"]:
             return Question(_closed(_claim(formula), known))
-    if formula is None:
-        return None
-    _no_other_variables(known, formula)
-    return Question(_both(known, formula), names)
+    if formula is not None:
+        _no_other_variables(known, formula)
+    return None if formula is None else Question(_both(known, formula), names)
 
 
 def _both(*parts: str) -> str:
@@ -355,8 +355,6 @@ def _closed(claim: str, given: str = "") -> str:
 
 
 def _bound(text: str) -> set[str]:
-    from qe.io.text_parser import lexed
-
     return lexed(text).bound
 
 
@@ -411,9 +409,6 @@ def _stated(binders: str, claim: str) -> str | None:
 
 def _names(text: str) -> tuple[str, ...]:
     """The variables of a formula in text, in their order; letters side by side that are a product each by itself."""
-    from qe.io.text_lexer import CALLS
-    from qe.io.text_parser import products
-
     no_names = {*KEYWORDS, *FUNCTIONS, *CALLS, *NO_VARIABLES, *_VOCABULARY, *_SHORT.split()}
     words = [word for word in re.findall(LISTED, text) if word not in no_names]
     made = products(text)
@@ -438,9 +433,6 @@ def _equation(text: str, sought: Iterable[str], named: str | None = None) -> tup
 
 def _difference(equation: str) -> Poly | None:
     """The polynomial that an equation says is zero; None where it has none."""
-    from qe.io.lowering import lower_term
-    from qe.io.text_parser import TextParser
-
     left, _, right = equation.partition("=")
     fail = Failing(f"({left}) - ({right})", "<text>")
     try:
@@ -451,8 +443,6 @@ def _difference(equation: str) -> Poly | None:
 
 def _spelt(text: str, names: str) -> str:
     """The text with the signs of the products that are read in it behind a quantifier of these names."""
-    from qe.io.text_parser import products
-
     made = products(f"ex {names}. {text}")
     return re.sub(WORD, lambda word: "*".join(word[0]) if word[0] in made else word[0], text)
 
@@ -635,6 +625,4 @@ def _typed(text: str) -> str:
     text = re.sub(r"(?<!\\)\\[()]", "$", text) if re.search(r"[A-Za-z]{3}[^\\]*\\\(", text) else text
     if "$" not in text or not re.search(r"[A-Za-z]", re.sub(r"\$[^$]*\$", "", text)):
         return text
-    from qe.io.latex_lexer import as_text
-
     return re.sub(r"\$+([^$]*)\$+", lambda inside: as_text(inside[1]), text)
