@@ -24,6 +24,7 @@ from bezier.report.html import Card, Page, Section, Text
 from bezier.report.page import PAPER
 from qe.processes.channel import Channel
 
+PAGE = "compare.html"
 NAMES = ("P0", "Q0", "R0", "R2")
 PLANE = (
     "In the plane through O, Q0 and R0, with coordinates q1u along R0 − Q0 and q1v across: the places that formula (8)"
@@ -135,9 +136,6 @@ def _timings(comparison: Comparison) -> Section:
     return Section("timings", "Timings", content)
 
 
-PAGE, DATA = "compare.html", COMPARISON
-
-
 def run(
     channel: Channel,
     problem: Problem,
@@ -159,7 +157,7 @@ def run(
 
 def _write(comparison: Comparison, folder: FilePath, target: FilePath, *, plots: bool) -> list[str]:
     """All files into ``folder``; the places where they will be."""
-    names, drawings, first = [PAGE, DATA], {}, None
+    names, drawings, first = [PAGE, COMPARISON], {}, None
     if plots:
         start = perf_counter()
         from bezier.compare import pictures as plot_compare
@@ -176,5 +174,5 @@ def _write(comparison: Comparison, folder: FilePath, target: FilePath, *, plots:
     files = [str(target / name) for name in sorted([*names, *write_texts(folder, texts)])]
     (folder / PAGE).write_text(render(comparison, drawings, first), encoding="utf-8")
     text = json.dumps(to_json(comparison, files), indent=1, ensure_ascii=False)
-    (folder / DATA).write_text(text + "\n", encoding="utf-8")
+    (folder / COMPARISON).write_text(text + "\n", encoding="utf-8")
     return files

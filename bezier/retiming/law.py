@@ -54,7 +54,8 @@ def short(value: Fraction | float, bits: int = BITS) -> Fraction:
 
 def fastest(grid: Grid, speeds: Sequence[float]) -> tuple[Step, ...]:
     """Steps with about these ds/dt at the nodes. Times and growths are short; so at nodes inside of a piece s is only
-    near the node, and the next step makes up for it. Breaks of the path are met exactly."""
+    near the node, and the next step makes up for it; for a difference of speeds that rounding made none does, as
+    numbers would be longer with each step. Breaks of the path are met exactly."""
     path, steps, resting = grid.path, list[Step](), set(grid.resting)
     s, v = path.breaks[0], ZERO
     for cut, node in zip(grid.intervals, grid.begins.tolist(), strict=True):
@@ -64,7 +65,8 @@ def fastest(grid: Grid, speeds: Sequence[float]) -> tuple[Step, ...]:
         aim, inside = path.breaks[cut.piece] + cut.low + cut.length, not grid.is_last(cut)
         time = 2 * (aim - s) / (v + wanted)
         time = short(time) if inside else time
-        growth = short((wanted - v) / time) if inside else (wanted - v) / time
+        change = wanted - v if not inside or abs(wanted - v) * 2**BITS > wanted else ZERO
+        growth = short(change / time) if inside else change / time
         steps.append(Step(RationalPoly.of([s, v, growth / 2]), time))
         s, v = steps[-1].state(time)
     return tuple(steps)

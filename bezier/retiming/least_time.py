@@ -6,6 +6,7 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import cached_property
+from itertools import accumulate
 from typing import Any
 
 import numpy as np
@@ -34,6 +35,7 @@ PASSES, LESS, MOST = 8, 3.0, 8
 MARGIN = Fraction(1, 1 << 20)
 """The share by which a motion is slower than proposed."""
 TRIES = 4
+UNUSUAL = "path: expected quantities of usual size, found one beyond 10^308"
 LEAST = "at least"
 """How labels of the bound begin."""
 
@@ -93,22 +95,17 @@ class LeastTime:
     @cached_property
     def certificate(self) -> Certificate:
         """The proof of both sides, for ``qe.verify``; ``checked`` also compares it with the path. Raises ``Unable``."""
-        members = []
-        for (label, excesses, sentence), length in zip(self._kept, self.trajectory.lengths, strict=True):
-            members.append((label, refuted(sentence, excesses, length)))
-        for part in self.weights:
-            label, excesses, sentence = _bounding(self.path, part)
-            members.append((label, refuted(sentence, excesses, part.interval.length)))
-        return Certificate.bundle(members)
+        lengths = [*self.trajectory.lengths, *(part.interval.length for part in self.weights)]
+        given = zip(self._claims, lengths, strict=True)
+        return Certificate.bundle([(label, refuted(said, excesses, h)) for (label, excesses, said), h in given])
 
     @cached_property
-    def _kept(self) -> list[tuple[str, list[Any], Formula]]:
-        return _stated(self.verdict, self.steps)
+    def _claims(self) -> list[tuple[str, list[Any], Formula]]:
+        return [*_stated(self.verdict, self.steps), *(_bounding(self.path, part) for part in self.weights)]
 
     def check(self, certificate: Certificate) -> None:
         """Whether a certificate proves just this. Raises ``CertificateRejected``."""
-        stated = [*self._kept, *(_bounding(self.path, part) for part in self.weights)]
-        verified(certificate, [(label, sentence, FALSE) for label, _, sentence in stated])
+        verified(certificate, [(label, sentence, FALSE) for label, _, sentence in self._claims])
 
     def page(self, title: str = "path") -> str:
         """An HTML page with a chart of each quantity over time and its limit."""
@@ -158,7 +155,7 @@ def least_time(
     try:
         return _least_time(path, limits, law, accuracy, budget or Budget())
     except OverflowError:
-        raise InputError("path: expected quantities of usual size, found one beyond 10^308") from None
+        raise InputError(UNUSUAL) from None
 
 
 def _least_time(path: Trajectory, limits: Sequence[Limit], law: Law, accuracy: Fraction, budget: Budget) -> LeastTime:
@@ -252,10 +249,7 @@ def _tolerance(path: Trajectory) -> Fraction:
 
 def _stated(verdict: Verdict, steps: Sequence[Step]) -> list[tuple[str, list[Any], Formula]]:
     """That each piece keeps the limits; the label of the first one in each step says what the step is."""
-    starts, at = dict[Fraction, Step](), Fraction(0)
-    for step in steps:
-        starts[at] = step
-        at += step.duration
+    starts = dict(zip(accumulate((s.duration for s in steps), initial=Fraction(0)), steps, strict=False))
     listed, limits = [], [o.limit for o in verdict.outcomes]
     every = claims(verdict.trajectory, limits, Fraction(1))
     for start, (label, excesses, sentence) in zip(verdict.trajectory.breaks, every, strict=False):
@@ -286,6 +280,8 @@ def checked(path: Trajectory, limits: Sequence[Limit], certificate: Certificate)
         verdict = decided(timed(path, steps), limits, _tolerance(path))
     except (ValueError, LookupError, ZeroDivisionError) as error:
         raise CertificateRejected("bundle", str(error)) from None
+    except OverflowError:
+        raise InputError(UNUSUAL) from None
     if verdict.breaking or seconds <= 0:
         raise CertificateRejected("bundle", "a motion that jumps, or no bound")
     result = LeastTime(path, steps, verdict, proved, seconds)

@@ -20,7 +20,7 @@ from bezier.interface.trajectory import LIMITED, limited_motion
 from bezier.motion.timelaw import Law
 from bezier.retiming.bound import bound, weights
 from bezier.retiming.grid import Bounds, Grid, stops_of
-from bezier.retiming.law import Step, is_motion, usual
+from bezier.retiming.law import Step, fastest, is_motion, usual
 from bezier.retiming.least_time import checked, least_time
 from bezier.retiming.proposals import proposal
 from bezier.trajectories.limits import Limit
@@ -53,6 +53,13 @@ def kept(motion: bezier.LeastTime, limits: dict[str, float]) -> None:
             rows = np.array([p.deriv(order)(t) for p in values])
             assert np.abs(rows).max() <= limits.get(name, np.inf) * (1 + 1e-12)
             assert np.linalg.norm(rows, axis=0).max() <= limits.get(f"{name}_norm", np.inf) * (1 + 1e-12)
+
+
+def test_numbers_stay_short_where_the_speed_stays_the_same() -> None:
+    grid = Grid.of(path([[0, 10], [0, F(1, 3)]]))
+    steps = fastest(grid, [0.3 * k / grid.nodes if k < 9 else 0.1 for k in range(grid.nodes)])
+    assert is_motion(grid.path, grid.stops, steps) and len(steps) > 40
+    assert max(len(str(step)) for step in steps) < 300  # 6,000 where each step makes up for the rounding before it
 
 
 @each(1e-9, 1.0, 1e6, 1e9)
@@ -269,6 +276,9 @@ def test_a_certificate_proves_both_sides(proved: tuple[Trajectory, list[Limit], 
     for other, listed in ((curve, tighter), (curve, limits[:-1]), (path([[0, 1, 1], [0, 0, 2]]), limits)):
         with pytest.raises(CertificateRejected):
             checked(other, listed, certificate)
+    for row in ([[0, 10**400]], [[0, F(1, 10**400)]], [[0, 1, F(1, 10**400)]]):
+        with pytest.raises((CertificateRejected, InputError)):
+            checked(path([*row, [0, 0, 1]]), limits, certificate)
 
 
 @each(40, pytest.param(1000, marks=pytest.mark.deep))
