@@ -38,12 +38,6 @@ _AT_ONCE = 20
 _GATHERED = 24
 """Atoms that are gathered one by one for a reason, at most."""
 
-_FEW = 40
-"""Atoms up to which a reason is gathered one by one before the engine is asked about all of them."""
-
-_GROWTH = 8
-"""Sets of atoms that the engine is asked about before it gets all that share variables."""
-
 
 class Theory:
     """Asked about one conjunction after another over one ring; what was refuted or found is remembered. ``at_once``:
@@ -69,9 +63,9 @@ class Theory:
         values: Values = dict(point)
         for _, group in connected(atoms, lambda a: frozenset(a.free))[1]:
             part = [a for a in group if isinstance(a, Atom)]
-            found = self._grown(part, point)
+            found = self._gathered(part, point)
             if isinstance(found, list):
-                return [self._reason(found, point)]
+                return [self._reason(found)]
             values |= found
         return values
 
@@ -95,29 +89,30 @@ class Theory:
             rest = [a for a in rest if a not in conflict]
         return conflicts
 
-    def _grown(self, part: list[Atom], point: Values) -> Values | list[Atom]:
-        """Values for the atoms, or some that cannot hold together: first those only that fail at the point, then with
-        them those that fail at the point found for them, and so on; in the end all."""
+    def _gathered(self, part: list[Atom], point: Values) -> Values | list[Atom]:
+        """Values for the atoms, or some that cannot hold together, gathered one by one: always one that fails at a
+        point where all those before hold, with as few new variables as can be; all where that takes too long."""
         taken: list[Atom] = []
+        names: set[str] = set()
         values = point
-        for _ in range(_GROWTH):
+        for _ in range(min(_GATHERED, len(part))):
             failing = [a for a in part if not holds_at(a, values)]
             if not failing:
                 return {name: values[name] for a in part for name in a.free}
-            taken += failing
-            if 2 * len(taken) > len(part):
+            best = min(failing, key=lambda a: (len(set(a.free) - names), len(a.free), a.poly.total_degree))
+            taken.append(best)
+            names.update(best.free)
+            try:
+                found = self._part(frozenset(taken), _TRIAL_WORK)
+            except Unable:
+                self.budget.check("search: reason")
                 break
-            found = self._part(frozenset(taken))
             if found is None:
                 return taken
             values = {**point, **found}
-        gathered = self._gathered(part, point) if len(part) <= _FEW else part
-        if gathered is not part and self._part(frozenset(gathered), _TRIAL_WORK) is None:
-            return gathered
         everything = self._part(frozenset(part))
         return part if everything is None else everything
 
-    # --- whatever else ------------------------------------------------------------------------------------
     def _part(self, part: frozenset[Atom], work: int | None = None) -> Values | None:
         """Values that make the atoms true, or None; raises ``Unable``."""
         if part not in self.known:
@@ -129,15 +124,14 @@ class Theory:
             self.known[part] = self.decide(exists(body.free, body), self.budget.part(work))
         return self.known[part]
 
-    def _reason(self, part: Sequence[Atom], point: Values) -> list[Atom]:
+    def _reason(self, part: list[Atom]) -> list[Atom]:
         """Fewer of the atoms that cannot hold together."""
-        needed = list(part)
 
         def contradict(atoms: Sequence[Atom]) -> bool:
             return simplify(conj(atoms), watch=self.budget.check) == FALSE
 
-        if contradict(needed):
-            return _without_needless(needed, contradict)
+        if contradict(part):
+            return _without_needless(part, contradict)
         trials = 0
 
         def refuted(atoms: Sequence[Atom]) -> bool:
@@ -151,30 +145,7 @@ class Theory:
                 self.budget.check("search: reason")
                 return False
 
-        return _without_needless(self._gathered(needed, point), refuted)
-
-    def _gathered(self, part: list[Atom], point: Values) -> list[Atom]:
-        """Some of the atoms that cannot hold together, gathered one by one: always one that fails at a point where all
-        those before hold, with as few new variables as can be; all of them where that takes too long."""
-        taken: list[Atom] = []
-        names: set[str] = set()
-        values = point
-        for _ in range(min(_GATHERED, len(part))):
-            failing = [a for a in part if not holds_at(a, values)]
-            if not failing:
-                return part
-            best = min(failing, key=lambda a: (len(set(a.free) - names), len(a.free), a.poly.total_degree))
-            taken.append(best)
-            names.update(best.free)
-            try:
-                found = self._part(frozenset(taken), _TRIAL_WORK)
-            except Unable:
-                self.budget.check("search: reason")
-                return part
-            if found is None:
-                return taken
-            values = {**point, **found}
-        return part
+        return _without_needless(part, refuted)
 
 
 def _without_needless(atoms: list[Atom], refuted: Callable[[Sequence[Atom]], bool]) -> list[Atom]:
