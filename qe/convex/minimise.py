@@ -328,29 +328,25 @@ def _contradictory_equations(system: ConvexSystem) -> OptimumEvidence:
 def _recede(system: ConvexSystem, state: _State, field: NumberField, point: Point, budget: Budget) -> OptimumEvidence:
     """Unboundedness: a direction of recession of the feasible set along which the objective falls forever.
 
-    d with H_f d = 0, H_i d = 0, b_i.d <= 0 for inequalities, a_j.d = 0 for equations; the least grad f.d over the
-    box |d_j| <= 1 is negative iff there is such a direction (Rockafellar 1970, theorems 8.3 and 27.1).
+    d with H_f d = 0, H_i d = 0, b_i.d <= 0 for inequalities, a_j.d = 0 for equations, and grad f.d < 0: so grad f.d has
+    no lower bound among them (Rockafellar 1970, theorems 8.3 and 27.1).
     """
-    size = len(system.names)
     rows = [row for row in system.objective.hessian if any(row)]
-    halves: list[tuple[Fraction, ...]] = []
+    halves: list[Quadratic] = []
     for form, relation in zip(system.forms, system.relations, strict=True):
         rows += [row for row in form.hessian if any(row)]
         if relation is FormRelation.EQ:
             rows.append(form.gradient)
         elif any(form.gradient):
-            halves.append(form.gradient)
-    linear, bounded = list(map(Quadratic.linear, rows)), list(map(Quadratic.linear, halves))
-    for j in range(size):
-        for direction in (_ONE, -_ONE):
-            bounded.append(Quadratic.linear([direction * (k == j) for k in range(size)], -1))
-    relations = (FormRelation.EQ,) * len(linear) + (FormRelation.LE,) * len(bounded)
-    cone = ConvexSystem(system.names, Quadratic.linear(system.objective.gradient), (*linear, *bounded), relations)
-    best = solve(cone, budget=budget)
-    towards = rational_numbers(best.point)
-    slope = sum((a * b for a, b in zip(system.objective.gradient, towards or (), strict=False)), _ZERO)
-    if best.status is not OptimumStatus.OPTIMAL or towards is None or slope >= 0:
+            halves.append(Quadratic.linear(form.gradient))
+    flat = Flat.whole(len(system.names)).cut(list(map(Quadratic.linear, rows)))
+    assert flat is not None  # the origin is on it
+    objective = Quadratic.linear(system.objective.gradient)
+    slope, *bounds = (form.restrict(flat.origin, flat.basis) for form in (objective, *halves))
+    _, falls = linear_optimum(slope, bounds, check=partial(budget.check, "optimum: simplex"))
+    if falls is None:
         raise Unable("neither optimality conditions nor a direction of descent could be proved")
+    way = flat.direction(falls)
     return evidence_about(
-        system, status=OptimumStatus.UNBOUNDED, field=field, faces=state.faces, point=point, direction=towards
+        system, status=OptimumStatus.UNBOUNDED, field=field, faces=state.faces, point=point, direction=way
     )
