@@ -79,14 +79,6 @@ class Clauses:
             meanings[zero], meanings[-zero] = Atom(poly, Relation.EQ), Atom(poly, Relation.NE)
         return meanings
 
-    def phases(self, sign: Callable[[Poly], int]) -> Clause:
-        """The literals of the signs that the polynomials have somewhere."""
-        literals_first = []
-        for poly, literals in self._signs.items():
-            present = sign(poly)
-            literals_first += [v if present == k else -v for v, k in zip(literals, (1, -1, 0), strict=True)]
-        return literals_first
-
     def chosen(self, model: Iterable[int], sign: Callable[[Poly], int]) -> list[Atom]:
         """Atoms, true in the model, that make the formula true.
 

@@ -142,6 +142,5 @@ def _completed(
             for reason in looked:
                 conflicts.append(tuple(reason))
                 solver.add_clause([-clauses.literal(a) for a in reason])
-            solver.set_phases(clauses.phases(theory.bounds.sign))
     context.log.work("search", {"clauses": len(clauses.clauses), "refuted": len(conflicts)})
     return Refuted((*clauses.orders, *conflicts), refutations)

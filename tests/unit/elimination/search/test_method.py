@@ -119,13 +119,6 @@ def test_signs_are_those_at_the_point_of_the_bounds(chosen: Sequence[Atom]) -> N
         assert Relation.GT.holds(bounds.sign(poly)) == holds_at(atom(poly, Relation.GT), point)
 
 
-def test_phases_are_literals_of_signs() -> None:
-    clauses = Clauses(disj((atom(X, Relation.GT), atom(Y, Relation.LE))))
-    true = set(clauses.phases(lambda poly: 1 if poly == X else -1))
-    for a in (Atom(X, Relation.GT), Atom(X, Relation.NE), Atom(Y, Relation.LT), Atom(Y, Relation.LE)):
-        assert clauses.literal(a) in true
-
-
 DIFFERENCES = [X - Y, X - Y - 1, Y - Z + 2, 2 * Z - 2 * X - 1, X - 3, Y, Z - X + 1]
 LINEAR_ATOMS = st.builds(atom, st.sampled_from(LINEAR + DIFFERENCES), st.sampled_from(list(Relation)))
 LINEAR_FORMULAS = st.recursive(
