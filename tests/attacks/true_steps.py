@@ -16,6 +16,7 @@ from qe.kernel.step import Limits
 from qe.options import Budget, Options
 from qe.proof.derivation import moved, put_together
 from qe.proof.entry import Entry, Json, formula_from_json
+from qe.proof.on_demand import completed
 from qe.proof.run_log import Choice, RunLog
 from qe.proof.step import Place, Step
 from qe.proving.elaborators import ELABORATORS
@@ -82,10 +83,11 @@ def proved(
     question: Formula, log: RunLog, answer: Formula, options: Options
 ) -> tuple[tuple[TrueStep, ...], tuple[str, ...]]:
     """The steps of a log for which evidence is accepted, those inside it too, and the rules of the others."""
-    derivation = put_together(question, log.steps(), answer)
+    budget = Budget(TO_PROVE)
+    derivation = put_together(question, tuple(completed(step, budget) for step in log.steps()), answer)
     formulas = (question, answer, *(s.before for s in derivation.steps))
     names = (*(n for f in formulas for n in names_in(f)), *names_within(list(derivation.steps)))
-    prover = Prover(Ring.of(dict.fromkeys(names)), options, Budget(TO_PROVE))
+    prover = Prover(Ring.of(dict.fromkeys(names)), options, budget)
     with elaborated() as steps:
         prover.whole(derivation, moved(derivation.start, prover.ring), moved(answer, prover.ring))
     return (*_read(prover.steps, prover.ring), *steps), tuple(prover.unchecked)
