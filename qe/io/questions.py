@@ -1,8 +1,7 @@
 """Questions in words, and commands of other systems, as formulas: ``for which m does x^2 = m have two solutions?`` is
 ``exactly two x. x^2 = m``, and ``let a, b be positive reals; prove that f`` is ``all a, b. a, b > 0 -> f``.
 
-A sentence is read as words of a small vocabulary with formulas between them; a word that is not in it belongs to a
-formula, which cannot be read then. What is read is noted for the caller; a text that is not clear stays as it is.
+What is read is noted for the caller; a text that is not clear stays as it is.
 """
 
 from __future__ import annotations
@@ -15,133 +14,29 @@ from qe.errors import InputError
 from qe.exact.ring import Poly
 from qe.formula.build import atom
 from qe.formula.relation import Relation
-from qe.io.latex_lexer import LETTERS, as_text, is_latex
+from qe.io.latex_lexer import as_text
 from qe.io.lowering import lower_term
 from qe.io.parser import TERM, parsed
 from qe.io.scripts import last_command
+from qe.io.sentence import BEST, COUNT, KINDS, LEAST, LIST, PLACE, SHORT, SIGN, THINGS, VOCABULARY, F, Sentence
 from qe.io.surface import FUNCTIONS
 from qe.io.text_errors import Failing
 from qe.io.text_lexer import CALLS
 from qe.io.text_parser import TextParser, lexed, products
-from qe.io.text_words import COUNTS, LISTED, NO_VARIABLES, QUANTITY, SIGNED, Question, split
-from qe.io.tokens import kinds
-from qe.spelling import KEYWORDS, QUOTED, WORD, is_product, unquoted
+from qe.io.text_words import LISTED, NO_VARIABLES, SIGNED, Question, split
+from qe.spelling import KEYWORDS, WORD, unquoted
 
 LONGEST = 1000
 """Longer texts are no questions in words."""
 
-_LEAST = "minimum minimize minimise minimal minimized minimised min least smallest lowest small"
-_GREATEST = "maximum maximize maximise maximal maximized maximised max greatest largest highest large"
-_NOUNS = (
-    "equation equations polynomial function expression quantity inequality inequalities cubic line curve circle"
-    " parabola ellipse hyperbola graph"
-)
-_VOCABULARY = kinds("""
-find find determine calculate
-prove prove show verify
-has has have having
-root root solution zero
-roots roots zeros zeroes solutions
-meet meet meets intersect intersects cut cuts
-touch touch touches
-points point points
-greater greater larger bigger
-less less smaller
-lie lie lies lying
-in in inside
-distinct distinct different unequal
-double double equal repeated
-numbers number numbers reals quantity quantities
-constant constant constants
-be be been
-such such so
-satisfy satisfy satisfies satisfying
-condition condition conditions constraint constraints
-sides sides sidelengths
-signs sign signs
-values value values
-exists exist exists
-holds hold holds
-, the an its real also following your
-""")
-"""Words that several say, or the comma for those that say nothing: all variables are real."""
-_SHORT = (
-    "and or not for all any if let are it of on at to is as by be do in has two one no we min max every such that with"
-    " there"
-)
-"""Words of sentences that are short, or may stand in formulas."""
-_BEST = rf"(?:{'|'.join(f'{_LEAST} {_GREATEST}'.split())})"
-_DESCRIBED = "|".join((*SIGNED, *f"{_NOUNS} {_LEAST} {_GREATEST}".split()))
-_PIECE = re.compile(
-    r"(?P<ARTICLE>[aA](?=\s+(?:real|roots?|solutions?|zero|double|repeated|tangent|constant|straight|triangle|quadratic|non"
-    rf"|unique|{_DESCRIBED})\b))|(?P<WORD>(?<![\\\w])[^\W\d_]{{2,}}(?![\w(\[^_']))|{QUOTED}|\w+|\s+|.",
-    re.DOTALL,
-)
-_F = r"§\d+"
-_SIGN = rf"(?:{'|'.join(SIGNED)})"
-_STRAY = re.compile(rf"(?<!all )(?<!any )(?<!every )(?<!some )\b{_SIGN}\b")
-_COUNT = rf"{QUANTITY}|{'|'.join(COUNTS)}|no|only one|both"
-_KINDS = rf"((?:(?:distinct|double|and|{_SIGN}) )*)"
-_PLACE = (
-    rf"(?:that )?(?:lie )?(?:in (?:(?:open|closed) )?(?:interval )?({_F})|(?:in )?between ({_F}) and ({_F})"
-    rf"|(greater|less) than ({_F}))"
-)
-_VALUES = r"(?:(?:all|set|range|possible|exact|two|values|constant|numbers|of|that|for|on|which|condition) )*"
-_THINGS = rf"(?:straight )?(?:{'|'.join(_NOUNS.split())}|constant|condition)(?: of)? :?"
-_FOUND = rf"(?:quadratic )?{_F}"
-_RULES = (
-    (r"^(?:true or false|prove or disprove) :", "prove"),
-    (r"\b(?:may|must|will|can) be\b|\bbe always\b", "is"),
-    (r" [.,] giving answers? in .*? form| to §\d+ decimal places", ""),
-    (rf"\b{_THINGS} ?(?={_F})", ""),
-    (rf"({_F}) , (?=has\b)", r"\1 "),
-    (r"^find what values", "for what values"),
-    (rf"^(?:for|at) (?:which|what) {_VALUES}({_F}) ,? ?(?:does|do|is|are|will|can)?\b", r"find \1 such that "),
-    (rf"^find condition (?:on {_F} )?(?:(?:so|such) that|for|(?:for|under) which) ", ""),
-    (r"^(?:(?:when )?does|when do|under (?:what|which) condition(?: on §\d+)? (?:does|do)) ", ""),
-    (rf"\bfind condition (?:that is satisfied by|on) ({_F})", r"find \1"),
-    (r"\b(?:so that|in order that|(?<=\d )for which|satisfy)\b", "such that"),
-    (rf"^(?:(?:what is|find) |(?=range|set|values)){_VALUES}(?={_F} (?:such that|for|if|with|does|is)\b)", "find "),
-    (rf"\b(?:find|what) {_VALUES}({_F})(?: (?:can|may|are) (?:possible|take|has))?(?= [.]?$|$)", r"find \1"),
-    (rf"^find ({_F}) for ({_F}) with (?=.*root)", r"find \1 such that \2 has "),
-    (rf"^(?:(?:if|given|suppose)(?: that)? )?(?!find|for\b)(.+?) ?[.,]? find ({_F})$", r"find \2 such that \1"),
-    (
-        rf"^(?:for )?({_FOUND}) [.,] find {_VALUES}({_F}) such that (?:it |{_THINGS})?(?=is|has)",
-        r"find \2 such that \1 ",
-    ),
-    (
-        rf"^for ({_FOUND}) , find {_VALUES}({_F}) such that ({_COUNT}) (roots?)\b",
-        r"find \2 such that \1 has \3 \4 that",
-    ),
-    (rf"(?:({_COUNT}) )?(?:of )?\b(roots?) of ({_FOUND}) (?:is|are|(?=lie))", r"\3 has \1 \2 that are "),
-    ("that are +(?=lie|in|between|greater|less)", "that "),
-    (r" has (?:(?:all|both) roots|only roots|all its roots)(?: real)?$", " has both roots"),
-    (r"\bholds?$|\b(?:is|are) (?:valid|true)(?= for\b)", ""),
-    (rf"(?:(?:is|are) )?({_F}) and ({_F}) (?:are )?both (?:solvable|has roots?)", r"\1 has root and \2 has root"),
-    (rf"^(?:solve )?system :? ?({_F})$", r"solve : \1"),
-    (rf"^(?:solve )({_F}) for ({_F})$", r"solve for \2 : \1"),
-    (rf"^({_F} are [^,.:]+) , (?=prove )", r"let \1 . "),
-    (
-        rf"^find (?:numbers )?{_F} (?:such that ({_F}) )?such that ({_F}) is (?:as )?({_BEST})(?: as possible)?",
-        r"\3 of \2 under \1",
-    ),
-    (r" under (?=subject)| under $", " "),
-    (
-        rf"^(?:(?:given|if|let|suppose|for)(?: that)? )?(.+?) ?[.,]? (?:then )?((?:find|what is) {_BEST}.*)$",
-        r"\2 under \1",
-    ),
-    (rf"\bof expression for (.+?) :? ?({_F})$", r"of \2 for \1"),
-    (r"^prove (?:that )?for (?!all|any|every|some)(.+?) ,? ?(?:we has|it holds)(?: that)? ", r"prove if \1 then "),
-)
-"""What is said for short in place of what people say, in this order."""
-
+_STRAY = re.compile(rf"(?<!all )(?<!any )(?<!every )(?<!some )\b{SIGN}\b")
 _PROVE = (
     "(?:prove(?: that| whether)?|(?:decide|find|check) (?:that|whether|if)|is it true that)"
     "(?: ?:| inequality(?: that)?)?"
 )
 _ASKED = re.compile(
-    rf"(?:(?P<proved>{_PROVE}) |solve (?:for (?P<for>{_F}) ?(?::|in)|{_THINGS}|:)? ?"
-    rf"|find (?:some |every )?(?P<sought>{_F}) (?:in \S+ )?(?:such that|if|with|does|do|is|are|for which) )"
+    rf"(?:(?P<proved>{_PROVE}) |solve (?:for (?P<for>{F}) ?(?::|in)|{THINGS}|:)? ?"
+    rf"|find (?:some |every )?(?P<sought>{F}) (?:in \S+ )?(?:such that|if|with|does|do|is|are|for which) )"
     r"(?P<rest>.*§.*)"
 )
 """What is to be shown or solved, or a condition on the variables that are sought."""
@@ -151,13 +46,13 @@ _GIVEN = re.compile(
 )
 _IF_THEN = re.compile(r"if (.+?) ?,? then (.+)")
 _SORTED = re.compile(
-    rf"({_F}) (?:(?:be|are|is|denote) )?(?:any |two |three |four )*(distinct )?({_SIGN}\b)? ?(?:numbers|constant)?"
-    rf"(?: (?:with|and) (product|sum) ({_F}))?(?! ?§)"
-    rf"|({_SIGN}) (?:numbers )?({_F})|numbers ({_F})"
+    rf"({F}) (?:(?:be|are|is|denote) )?(?:any |two |three |four )*(distinct )?({SIGN}\b)? ?(?:numbers|constant)?"
+    rf"(?: (?:with|and) (product|sum) ({F}))?(?! ?§)"
+    rf"|({SIGN}) (?:numbers )?({F})|numbers ({F})"
 )
 """Variables with what they are: ``a, b be positive numbers``, ``positive numbers a, b``."""
 _TRIANGLE = re.compile(
-    rf"({_F}) (?:be|are) (?:lengths of )?(?:side lengths|sides|lengths of sides) of (?:some )?triangle"
+    rf"({F}) (?:be|are) (?:lengths of )?(?:side lengths|sides|lengths of sides) of (?:some )?triangle"
 )
 _LEAN = re.compile(
     r"(?:theorem\s+\S+|lemma\s+\S+|example)\s*((?:[({][^(){}:]*:(?:[^(){}]|\([^()]*\))*[)}]\s*)*):(?!=)\s*(.+?)\s*(?::=.*)?",
@@ -171,16 +66,16 @@ _NOT_REAL = re.compile(
 )
 _UNNAMED = re.compile(r"\bfor (?:all|every|any) values$")
 _ROOTS = re.compile(
-    rf"(quadratic )?(system )?({_F}) (?:to )?has (?:({_COUNT}) )?{_KINDS}(?:root(s?))"
-    rf"(?: (?:(?:which|that) are )?((?:and|{_SIGN}| )+?))?(?: for ({_F}))?"
-    rf"(?: (?:{_PLACE}|(?:that are )?of opposite signs))?"
+    rf"(quadratic )?(system )?({F}) (?:to )?has (?:({COUNT}) )?{KINDS}(?:root(s?))"
+    rf"(?: (?:(?:which|that) are )?((?:and|{SIGN}| )+?))?(?: for ({F}))?"
+    rf"(?: (?:{PLACE}|(?:that are )?of opposite signs))?"
 )
-_SEPARATED = re.compile(rf"({_F}) has one root {_PLACE} and (?:other|one)(?: root)? {_PLACE}")
+_SEPARATED = re.compile(rf"({F}) has one root {PLACE} and (?:other|one)(?: root)? {PLACE}")
 _MEETING = re.compile(
-    rf"(?:is |does |do )?({_F}) (?:is |are )?(meet|touch|tangent to) ({_F})"
-    rf"(?: (?:at|in) ({_COUNT})(?: distinct)* points)?"
+    rf"(?:is |does |do )?({F}) (?:is |are )?(meet|touch|tangent to) ({F})"
+    rf"(?: (?:at|in) ({COUNT})(?: distinct)* points)?"
 )
-_ALWAYS = re.compile(rf"(is )?({_F}) (?:(is|be) )?(always )?({_SIGN})(?: (for (?:all|every|any) .*))?")
+_ALWAYS = re.compile(rf"(is )?({F}) (?:(is|be) )?(always )?({SIGN})(?: (for (?:all|every|any) .*))?")
 _CALL = re.compile(
     r"(?:\w+(?:\.|:-))*(?:SolveTools\[)?((?:n|f|lin|nonlin)?solve\w*|reduce_\w+|prove|bool|qepcad|QuantifierElimination|SemiAlgebraic"
     r"|(?<=:-)simplify)\]?\((.*)\)\s*[;:]?",
@@ -193,85 +88,13 @@ _WITHIN = re.compile(r"(?:domain\s*=\s*)?Interval(?:\.([LR]?)open)?\(\s*([^,()]+
 _DOMAIN = re.compile(r"(?:domain\s*=\s*)?S?\.?Reals|real\b|\w+\s*=\s*(?:True|False|real|Q\.real\(\w+\)|'[^']*')")
 _NAMES = re.compile(rf"(?:{LISTED}|[\[({{]\s*(?:{LISTED}(?:\s*,\s*{LISTED})*)?\s*[\])}}])")
 
-_LIST = re.compile(rf"{LISTED}(?:\s*,\s*{LISTED})*")
 _SUBJECT = r" ?,? (?:subject to(?: condition)?(?: that)?|such that|given|under|where|when|for|with|over|on|if) :? ?"
 _OPTIMUM = re.compile(
-    rf"(?:(?:(?:find|what is) )?({_BEST})(?: possible)?(?: values)?(?: (?:of|that|which))? ?:? ?(?:{_THINGS})? ?)?"
-    rf"({_F})(?: can take)?((?:{_SUBJECT}.+)?)"
+    rf"(?:(?:(?:find|what is) )?({BEST})(?: possible)?(?: values)?(?: (?:of|that|which))? ?:? ?(?:{THINGS})? ?)?"
+    rf"({F})(?: can take)?((?:{_SUBJECT}.+)?)"
 )
-_OF_TWO = re.compile(rf"\b(product|sum) of ({_F})")
 _INTERVAL = re.compile(r"\s*[\[(][^()\[\]<>=≤≥]*,[^()\[\]<>=≤≥]*[\])]\s*")
 _RELATED = re.compile(r"[<>=≤≥≠∈]")
-_OPERATOR = re.compile(r"[-+*/^=<>(,]\s*$")
-
-
-class _Sentence:
-    """The words of a text, §0, §1, … where its formulas stand."""
-
-    def __init__(self, text: str) -> None:
-        self.formulas: list[str] = []
-        self.letters = {*re.findall(r"(?<![^\W\d_])[^\W\d_](?![^\W\d_])", text)}
-        words: list[str] = []
-        segment = ""
-        text = re.sub(r"\b([Nn])on[-\s]+(?=negative|zero|positive)", r"\1on", re.sub(r"\bs\.\s?t\.", "such that", text))
-        for piece in _PIECE.finditer(text):
-            word = (piece["WORD"] or "").lower()
-            is_word = (
-                word in _VOCABULARY
-                or word in _SHORT.split()
-                or (len(word) > 2 and word.isalpha() and not self._is_formula(word))
-            )
-            if is_word or (piece["ARTICLE"] and not _OPERATOR.search(segment)):
-                words += [*self._segment(segment), _VOCABULARY.get(word, word).strip(",")]
-                segment = ""
-            else:
-                segment += piece[0]
-        words += self._segment(segment)
-        self.words = re.sub(r"(?:[ .]*\.)?$", "", " ".join(filter(None, words)))
-        at = 0
-        while two := re.compile(rf"({_F}) (?:, )?and ({_F})").search(self.words, at):
-            left, right = (self.formulas[int(one[1:])] for one in two.groups())
-            at = two.start() + 1
-            if _LIST.fullmatch(left) and _LIST.fullmatch(right):
-                at -= 1
-                self.words = f"{self.words[:at]}{self.put(f'{left}, {right}')}{self.words[two.end() :]}"
-        self.words = _OF_TWO.sub(lambda two: self.put(f"({self.joined(two[1], two[2])})"), self.words)
-        for pattern, meant in _RULES:
-            self.words = re.sub(" +", " ", re.sub(pattern, meant, self.words)).strip()
-
-    def _is_formula(self, word: str) -> bool:
-        """Whether a word can stand in a formula: a function, a product, a Greek letter."""
-        return word in FUNCTIONS or is_product(word, self.letters) or LETTERS.fullmatch(word) is not None
-
-    def _segment(self, text: str) -> list[str]:
-        """A formula between two words, and the signs of punctuation around it."""
-        before, inside, behind = re.fullmatch(r"([\s.,:;?]*)(.*?)([\s.,:;?]*)", text, re.DOTALL).groups()  # type: ignore[union-attr]
-        marks = [[mark if mark in ",:" else "." for mark in part if mark in ".,:;?"] for part in (before, behind)]
-        inside = re.sub(r"^'(\w+)'$", r"\1", re.sub(r"\(\s*\w+\s*∈\s*(?:R|ℝ)\s*\)$", "", inside.replace("–", "-")))
-        inside = re.sub(r"^[fg]\s*\(\s*\w(?:\s*,\s*\w)*\s*\)\s*=", "", inside)
-        if inside and is_latex(inside):
-            inside = as_text(inside)
-        if said := re.fullmatch(rf"({_LIST.pattern})\s*([.:])\s+(.+)", inside, re.DOTALL):  # for x: f
-            return [*marks[0], self.put(said[1]), said[2], *self._segment(said[3]), *marks[1]]
-        return [*marks[0], *([self.put(inside)] if inside else []), *marks[1]]
-
-    def put(self, formula: str) -> str:
-        """The sign for a formula."""
-        self.formulas.append(formula.strip())
-        return f"§{len(self.formulas) - 1}"
-
-    def __getitem__(self, part: str) -> str:
-        """The text of a part of the sentence."""
-        text = re.sub(r"§(\d+)", lambda at: self.formulas[int(at[1])], part)
-        return re.sub(r" (?=[,.:])", "", text).strip()
-
-    def names(self, part: str) -> list[str]:
-        """The names in a list."""
-        return [unquoted(name) if name[0] == "`" else name for name in re.findall(LISTED, self[part])]
-
-    def joined(self, how: str, listed: str) -> str:
-        """The product or the sum of the variables in a list."""
-        return (" * " if how == "product" else " + ").join(self.names(listed))
 
 
 def plainly(text: str) -> Question:
@@ -295,10 +118,10 @@ def plainly(text: str) -> Question:
         return _called(call[1], call[2])
     if sort := _NOT_REAL.search(short):
         raise InputError(f"all variables are real, {sort[1]} cannot be asked for")
-    said = _Sentence(short)
+    said = Sentence(short)
     constants: list[str] = []
     said.words = re.sub(
-        rf" ?[.,]? (?:where|note :?|here) ({_F} (?:is|are)(?: (?:{_SIGN}|distinct|constant|numbers))+)(?: ,)?",
+        rf" ?[.,]? (?:where|note :?|here) ({F} (?:is|are)(?: (?:{SIGN}|distinct|constant|numbers))+)(?: ,)?",
         lambda where: constants.append(_premise(said, where[1])) or "",  # type: ignore[func-returns-value]
         said.words,
     ).strip()
@@ -307,7 +130,7 @@ def plainly(text: str) -> Question:
     return question if question is not None and is_clear else Question(text)
 
 
-def _read(said: _Sentence, known: str) -> Question | None:
+def _read(said: Sentence, known: str) -> Question | None:
     """What a sentence asks under what is ``known``; None where that is not clear."""
     words = said.words
     given = _GIVEN.fullmatch(words) or _IF_THEN.fullmatch(words)
@@ -367,17 +190,17 @@ def _no_other_variables(given: str, claim: str) -> None:
 
 def _claim(text: str) -> str:
     """What is claimed, with a quantifier behind it in front."""
-    text = re.sub(rf"\bfor (?=(?:{_SIGN}|numbers) )", "for all ", text)
+    text = re.sub(rf"\bfor (?=(?:{SIGN}|numbers) )", "for all ", text)
     return re.sub(r"(?s)^(.+?) (for (?:all|every|any)\b[^:]*)$", r"\2: \1", text)
 
 
-def _premise(said: _Sentence, text: str) -> str:
+def _premise(said: Sentence, text: str) -> str:
     """Conditions in words: ``x, y be positive numbers with x + y = 1`` is ``x, y > 0 and x + y = 1``."""
 
     def sorted_names(match: re.Match[str]) -> str:
         where = match[1] or match[7] or match[8]
         listed, sign = said.names(where), match[3] or match[6]
-        if match[0].strip() == match[1] or not _LIST.fullmatch(said[where]):
+        if match[0].strip() == match[1] or not LIST.fullmatch(said[where]):
             return match[0]
         parts = [f"{', '.join(listed)} {SIGNED[sign]} 0"] if sign else []
         parts += [f"{a} /= {b}" for a, b in combinations(listed, 2) if match[2]]
@@ -409,7 +232,7 @@ def _stated(binders: str, claim: str) -> str | None:
 
 def _names(text: str) -> tuple[str, ...]:
     """The variables of a formula in text, in their order; letters side by side that are a product each by itself."""
-    no_names = {*KEYWORDS, *FUNCTIONS, *CALLS, *NO_VARIABLES, *_VOCABULARY, *_SHORT.split()}
+    no_names = {*KEYWORDS, *FUNCTIONS, *CALLS, *NO_VARIABLES, *VOCABULARY, *SHORT.split()}
     words = [word for word in re.findall(LISTED, text) if word not in no_names]
     made = products(text)
     return tuple(dict.fromkeys(name for word in words for name in (word if word in made else [word])))
@@ -456,7 +279,7 @@ def _quadratic(equation: str, name: str) -> list[str] | None:
     return [] if lead.is_constant else [str(atom(lead, Relation.NE))]
 
 
-def _counted(said: _Sentence, text: str, sought: tuple[str, ...]) -> str | None:
+def _counted(said: Sentence, text: str, sought: tuple[str, ...]) -> str | None:
     """``f has two positive roots in [0, 1]``; None for another text."""
     counted = _ROOTS.fullmatch(text)
     if counted is None:
@@ -474,7 +297,7 @@ def _counted(said: _Sentence, text: str, sought: tuple[str, ...]) -> str | None:
     if solved is None:
         return None
     equation, name = solved
-    signs = [f"{name} {SIGNED[word]} 0" for word in re.findall(_SIGN, f"{kinds} {also or ''}")]
+    signs = [f"{name} {SIGNED[word]} 0" for word in re.findall(SIGN, f"{kinds} {also or ''}")]
     conditions = [condition for condition in (*signs, _place(said, name, place)) if condition]
     many = "both" if not many and several and conditions else many
     is_opposite, is_double = "opposite" in text, "double" in kinds
@@ -503,7 +326,7 @@ def _many(many: str) -> str:
     return kind or ("" if " " in many else "exactly ") + many
 
 
-def _separated(said: _Sentence, text: str, sought: tuple[str, ...]) -> str | None:
+def _separated(said: Sentence, text: str, sought: tuple[str, ...]) -> str | None:
     """``f has one root less than 2 and other greater than 2``; None for another text."""
     two = _SEPARATED.fullmatch(text)
     solved = _equation(said[two[1]], sought) if two else None
@@ -514,10 +337,10 @@ def _separated(said: _Sentence, text: str, sought: tuple[str, ...]) -> str | Non
     return " and ".join([*quadratic, *(f"(ex {name}. {equation} and {place})" for place in places)])
 
 
-def _meeting(said: _Sentence, text: str, sought: tuple[str, ...]) -> str | None:
+def _meeting(said: Sentence, text: str, sought: tuple[str, ...]) -> str | None:
     """``the line y = f meets the curve g in two points``; None for another text. The line is tangent where the equation
     for x has a double root."""
-    meeting = _MEETING.fullmatch(re.sub(rf"^(?:do )?({_F}) and ({_F}) (meet|touch)\b", r"\1 \3 \2", text))
+    meeting = _MEETING.fullmatch(re.sub(rf"^(?:do )?({F}) and ({F}) (meet|touch)\b", r"\1 \3 \2", text))
     if meeting is None:
         return None
     how, many = meeting[2], meeting[4]
@@ -545,7 +368,7 @@ def _tangent(y: str, value: str, curve: str, x: str) -> str | None:
     return f"ex {x}. {equation} and {atom(poly.derivative(poly.ring.index[x]), Relation.EQ)}"
 
 
-def _place(said: _Sentence, name: str, place: list[str | None]) -> str:
+def _place(said: Sentence, name: str, place: list[str | None]) -> str:
     """Where a root is, as a condition; empty without one."""
     interval, low, high, side, bound = (part and said[part] for part in place)
     if interval:
@@ -555,7 +378,7 @@ def _place(said: _Sentence, name: str, place: list[str | None]) -> str:
     return f"{name} {'<' if side == 'less' else '>'} {bound}" if side else ""
 
 
-def _always(said: _Sentence, text: str, sought: tuple[str, ...]) -> str | None:
+def _always(said: Sentence, text: str, sought: tuple[str, ...]) -> str | None:
     """``is f positive for all x``; None for another text."""
     always = _ALWAYS.fullmatch(text)
     if always is None or not (always[1] or always[4] or always[6]):
@@ -571,14 +394,14 @@ def _always(said: _Sentence, text: str, sought: tuple[str, ...]) -> str | None:
 def optimum_in_words(text: str) -> tuple[int, str, str] | None:
     """1 or -1 (0 without a word for it), the objective and the conditions of ``minimize f subject to c``, ``f, c``,
     ``given c, find the least value of f``; None for another text."""
-    said = _Sentence(_typed(text))
+    said = Sentence(_typed(text))
     goal = _OPTIMUM.fullmatch(said.words)
     if goal is None or not (goal[1] or goal[3]):
         objective, conditions = _at_comma(text)
         return _optimum(0, objective, conditions) if conditions else None
     objective, behind = _at_comma(said[goal[2]])
     under = [_premise(said, part) for part in re.split(_SUBJECT, goal[3]) if part]
-    sign = 0 if goal[1] is None else 1 if goal[1] in _LEAST.split() else -1
+    sign = 0 if goal[1] is None else 1 if goal[1] in LEAST.split() else -1
     return _optimum(sign, objective, ", ".join(filter(None, (*under[::-1], behind))))
 
 
