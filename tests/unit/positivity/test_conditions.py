@@ -187,7 +187,7 @@ def test_no_squares_are_looked_for_under_an_equation(monkeypatch: pytest.MonkeyP
     (f"{BALL} and x*y*z + w < -2", "xyz"),  # w is free: many blocks with parameters, and never a proof
 )
 def test_what_is_no_condition_of_squares(body: str, variables: str) -> None:
-    """An inequation allows either sign: as a condition it would make the first of these false, which is true at w = 2."""
+    """An inequation allows either sign; as a condition it would make the first false, which is true at w = 2."""
     found, asked = read(body), list[tuple[Poly, ...]]()
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr(gram, "sum_of_squares", lambda poly, orthant=frozenset(), under=(): asked.append(under))
