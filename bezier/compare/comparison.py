@@ -43,7 +43,7 @@ PAPER = {PlanMethod.QUADRATIC: "about 15.4 s", PlanMethod.CUBIC: "has not yet be
 NUMBERS = {PlanMethod.QUADRATIC: "(8):", PlanMethod.CUBIC: "(7):"}
 """What the labels of the certificates of a plan begin with."""
 
-COMPARE_SECONDS, PROOF_SECONDS, LEAST_PROOF_SECONDS = 45.0, 32.0, 4.0
+COMPARE_SECONDS, PROOF_SECONDS, LEAST_PROOF_SECONDS = 28.0, 16.0, 4.0
 """Processor time that the comparison may take without a limit of the caller, and seconds for all derivations together,
 at most and at least; what is not finished then is left out, and the comparison says so."""
 PATIENCE = 20

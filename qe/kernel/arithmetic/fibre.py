@@ -8,7 +8,9 @@ theorem, greatest common divisors and squarefree parts. Every answer is exact.
 from __future__ import annotations
 
 from collections.abc import Callable
+from contextlib import suppress
 from fractions import Fraction
+from itertools import pairwise
 from typing import Any
 
 from flint import acb_poly, arb, fmpz_poly
@@ -24,7 +26,6 @@ from qe.kernel.arithmetic.sturm import (
     irreducible_factor_at,
     real_among,
     sign_of,
-    variations,
 )
 from qe.kernel.arithmetic.triangular import (
     FIRST_BITS,
@@ -32,14 +33,13 @@ from qe.kernel.arithmetic.triangular import (
     Point,
     fibre_balls,
     gcd,
-    pseudo_remainder,
     quotient,
-    reduce,
+    subresultants,
     trim,
 )
 
 ENCLOSURE_BITS = (64, 256, 1024)
-LONG_BITS = (64, 256, 1024, 4096, 16384)  # a quotient loses many bits by cancellation
+LONG_BITS = (*ENCLOSURE_BITS, 4096, 16384)  # a quotient loses many bits by cancellation
 Values = list[tuple[Fraction, Any, Any]]
 
 
@@ -131,11 +131,7 @@ class AlgebraicFibre:
             return self
         if shared.degree == 1 or shared._repeated() is None:
             return SimplePart(self, shared)
-        return self.divided(shared)
-
-    def divided(self, divisor: AlgebraicFibre) -> AlgebraicFibre:
-        """The exact quotient by a divisor."""
-        return AlgebraicFibre(self.point, self.index, quotient(self.point, self.poly, divisor.poly, self.index))
+        return AlgebraicFibre(self.point, self.index, quotient(self.point, self.poly, shared.poly, self.index))
 
     def _repeated(self) -> AlgebraicFibre | None:
         """The greatest common divisor with the derivative, or None if all roots are simple."""
@@ -150,29 +146,17 @@ class AlgebraicFibre:
 
     def count(self) -> int:
         """The number of distinct real roots: from enclosures of all complex roots if these separate them, else by
-        the signed remainder sequence over the point's field."""
-        for bits in ENCLOSURE_BITS:
-            with precision(bits):
-                q = self.balls(bits)
-                roots = None if q[self.degree].contains(0) else complex_enclosures(acb_poly(q), bits)
-                found = None if roots is None else real_among(roots)
-            if found is not None:
-                return found
-        return self.count_by_remainders()
+        signed subresultants over the point's field."""
+        found = _separated(self.balls, ENCLOSURE_BITS)
+        return self.count_by_remainders() if found is None else found
 
     def count_by_remainders(self) -> int:
-        """The number of distinct real roots, by the signed remainder sequence over the point's field (Sturm)."""
-        i, point = self.index, self.point
-        a, b = self.poly, self.poly.derivative(i)
-        leads = [(point.sign(a.leading(i)), a.degree(i))]
-        while b:
-            leads.append((point.sign(b.leading(i)), b.degree(i)))
-            if b.degree(i) == 0:
-                break
-            remainder, s = pseudo_remainder(point, a, b, i)
-            remainder, t = reduce(point, remainder)
-            a, b = b, trim(point, remainder * (-s * t), i)
-        return variations([s if d % 2 == 0 else -s for s, d in leads]) - variations([s for s, _ in leads])
+        """The number of distinct real roots by signed subresultants (Basu, Pollack, Roy 2006, section 4.2.2)."""
+        i = self.index
+        chain = subresultants(self.point, self.poly, self.poly.derivative(i), i)
+        signs = [(s.degree(i), _parity(self.degree - s.degree(i)) * self.point.sign(s.leading(i))) for s in chain]
+        signs = [(p, s) for p, s in signs if s]
+        return sum(_parity(p - q) * s * t for (p, s), (q, t) in pairwise(signs) if (p - q) % 2)
 
     def coordinate(self, low: Fraction, high: Fraction) -> Fraction | Coordinate | None:
         """The root between low and high of a squarefree polynomial that has exactly one there, or None."""
@@ -182,12 +166,24 @@ class AlgebraicFibre:
         return Coordinate(self.index, self.poly, low, high, ends[1])
 
 
-class SimplePart:
-    """f / g for g = gcd(f, f') squarefree: the roots of f, each once (so f has no root of multiplicity above 2).
+def _separated(poly: Callable[[int], Any], precisions: tuple[int, ...]) -> int | None:
+    """The number of real roots of a polynomial given by balls, if at some precision all complex roots are enclosed."""
+    for bits in precisions:
+        with precision(bits), suppress(ZeroDivisionError):  # of a quotient whose divisor may have a lower degree
+            q = poly(bits)
+            roots = None if q[q.degree()].contains(0) else complex_enclosures(acb_poly(q), bits)
+            if roots is not None and (found := real_among(roots)) is not None:
+                return found
+    return None
 
-    It is never written out exactly: signs are products, and the enclosures of its roots come from a division of
-    ball polynomials, which encloses the exact quotient.
-    """
+
+def _parity(k: int) -> int:
+    """(-1)^(k (k - 1) / 2)."""
+    return -1 if k % 4 > 1 else 1
+
+
+class SimplePart:
+    """f / g, never written out, for g = gcd(f, f') squarefree: the roots of f, each once (multiplicity at most 2)."""
 
     __slots__ = ("degree", "f", "g")
 
@@ -203,16 +199,8 @@ class SimplePart:
 
     def count(self) -> int:
         """The number of real roots."""
-        for bits in LONG_BITS:
-            with precision(bits):
-                dividend, divisor = self.f.balls(bits), self.g.balls(bits)
-                if dividend[self.f.degree].contains(0) or divisor[self.g.degree].contains(0):
-                    continue
-                roots = complex_enclosures(acb_poly(dividend // divisor), bits)
-                found = None if roots is None or len(roots) != self.degree else real_among(roots)
-            if found is not None:
-                return found
-        return self.f.divided(self.g).count()
+        found = _separated(lambda bits: self.f.balls(bits) // self.g.balls(bits), LONG_BITS)
+        return self.f.count_by_remainders() if found is None else found
 
     def coordinate(self, low: Fraction, high: Fraction) -> Fraction | Coordinate | None:
         """The root of f between low and high where f has exactly one: a simple root of g, or else of f."""

@@ -38,11 +38,7 @@ def variations(signs: Sequence[int]) -> int:
     return sum(a != b for a, b in pairwise(present))
 
 
-def unlimited() -> None:
-    """The check of functions whose work has no limit."""
-
-
-def sturm_sequence(p: fmpz_poly, check: Callable[[], None] = unlimited) -> list[fmpz_poly]:
+def sturm_sequence(p: fmpz_poly, check: Callable[[], None] = lambda: None) -> list[fmpz_poly]:
     """The signed remainder sequence of p and p', each element up to a positive factor; ``check`` at every step."""
     sequence = [p, p.derivative()]
     while sequence[-1]:
@@ -76,7 +72,7 @@ def count_real_roots(p: fmpz_poly) -> int:
     return _count(tuple(int(c) for c in p.coeffs()))
 
 
-def count_roots_between(p: fmpz_poly, low: Fraction, high: Fraction, check: Callable[[], None] = unlimited) -> int:
+def count_roots_between(p: fmpz_poly, low: Fraction, high: Fraction, check: Callable[[], None] = lambda: None) -> int:
     """The number of distinct real roots in (low, high); neither end is a root.
 
     At most one where the derivative is seen to have no zero; else by Sturm's theorem.

@@ -146,12 +146,7 @@ class Point:
             common = p.to_univariate(i).gcd(coordinate.poly.to_univariate(i))
             low, high = sign_of(common(coordinate.low)), sign_of(common(coordinate.high))
         else:
-            p = trim(before, reduce(before, p)[0], i)
-            if not p:
-                return True
-            shared = gcd(before, coordinate.poly, p, i)
-            if shared.degree(i) == 0:
-                return False
+            shared = gcd(before, coordinate.poly, trim(before, reduce(before, p)[0], i), i)
             low, high = (before.sign(at(shared, i, x)) for x in (coordinate.low, coordinate.high))
         # common divides poly, whose only root between low and high is simple, and poly is nonzero at both
         return low * high < 0
@@ -167,8 +162,6 @@ def at(p: Poly, i: int, value: fmpq) -> Poly:
 
 def nested(p: Poly, indices: tuple[int, ...]) -> Any:
     """p as fmpz_poly in the lowest of the variables, then lists of coefficients for each higher one; cached."""
-    if not indices or p.is_constant:
-        return fmpz_poly([p.constant_value()])
     key = f"nested {indices}"
     found = p.__dict__.get(key)
     if found is None:
@@ -273,10 +266,32 @@ def trim(point: Point, p: Poly, i: int) -> Poly:
 
 
 def gcd(point: Point, a: Poly, b: Poly, i: int) -> Poly:
-    """A greatest common divisor in variable i over the field of the point; a and b trimmed, a nonzero."""
+    """A greatest common divisor in variable i over the field of the point; a and b trimmed, one nonzero: the last
+    subresultant that keeps its degree there (Basu, Pollack, Roy 2006, sections 4.2.2 and 8.3)."""
+    chain = subresultants(point, *((a, b) if a.degree(i) >= b.degree(i) else (b, a)), i)
+    return reduce(point, next(s for s in reversed(chain) if point.sign(s.leading(i))))[0]
+
+
+def subresultants(point: Point, a: Poly, b: Poly, i: int) -> list[Poly]:
+    """a, b (of no higher degree) and those of their subresultants in variable i whose degree is their index (Ducos, J.
+    Pure Appl. Algebra 145, 2000, section 2)."""
+    if not b:
+        return [a]
+    chain, power, a, b = [a, b], b.leading(i) ** (a.degree(i) - b.degree(i)), b, _remainder(point, a, b, i)
     while b:
+        d = a.degree(i) - b.degree(i)
+        chain.append((b * b.leading(i) ** (d - 1)).exact_divide(power ** (d - 1)))
+        a, b = chain[-1], _remainder(point, a, b, i).exact_divide(power**d * a.leading(i))
+        power = a.leading(i)
+    return chain
+
+
+def _remainder(point: Point, a: Poly, b: Poly, i: int) -> Poly:
+    """The remainder of a (-c)^(deg a - deg b + 1) by b with leading coefficient c in variable i."""
+    lead, m, unit = b.leading(i), b.degree(i), b.ring.gen(i)
+    for n in range(a.degree(i), m - 1, -1):
         point.check()
-        a, b = b, trim(point, reduce(point, pseudo_remainder(point, a, b, i)[0])[0], i) if b.degree(i) else b * 0
+        a = dict(enumerate(a.coefficients(i))).get(n, 0) * b * unit ** (n - m) - a * lead
     return a
 
 
