@@ -171,7 +171,7 @@ def _separated(poly: Callable[[int], Any], precisions: tuple[int, ...]) -> int |
     for bits in precisions:
         with precision(bits), suppress(ZeroDivisionError):  # of a quotient whose divisor may have a lower degree
             q = poly(bits)
-            roots = None if q[q.degree()].contains(0) else complex_enclosures(acb_poly(q), bits)
+            roots = None if q.coeffs()[-1].contains(0) else complex_enclosures(acb_poly(q), bits)
             if roots is not None and (found := real_among(roots)) is not None:
                 return found
     return None
