@@ -1,4 +1,4 @@
-"""Linear inequalities of an answer without interior points: the equations of its affine hull in their place."""
+"""Convex inequalities of an answer without interior points: the equations of its affine hull in their place."""
 
 from __future__ import annotations
 
@@ -16,12 +16,14 @@ from qe.rules.linear import Pivot, substitute
 from qe.simplifier.simplify import simplify
 
 
-def is_linear_conjunction(formula: Formula, context: Context) -> bool:
-    """Whether the formula has more weak linear inequalities than variables and nothing else."""
-    if not isinstance(formula, And) or len(formula.args) <= len(formula.free):
+def may_lack_interior(formula: Formula) -> bool:
+    """Whether the formula has several weak inequalities of degree two at most and nothing else: if all are linear, more
+    than variables."""
+    if not isinstance(formula, And):
         return False
     weak = (Relation.LE, Relation.GE)
-    return all(isinstance(a, Atom) and a.relation in weak and a.poly.total_degree == 1 for a in formula.args)
+    degrees = {a.poly.total_degree if isinstance(a, Atom) and a.relation in weak else 3 for a in formula.args}
+    return max(degrees) < 3 and (2 in degrees or len(formula.args) > len(formula.free))
 
 
 def affine_hull_first(formula: Formula, context: Context, start: object = None) -> Formula:
@@ -30,7 +32,8 @@ def affine_hull_first(formula: Formula, context: Context, start: object = None) 
     from qe.convex.system import NotConvex
 
     ring = formula.ring
-    assert ring is not None
+    if ring is None or not may_lack_interior(formula):
+        return formula
     equations: list[Poly] = []
     rest = formula
     while True:

@@ -66,10 +66,12 @@ Holding = Callable[[Formula], int]
 
 @dataclass(slots=True)
 class Start:
-    """The question that an answer is to, where its steps begin in the log, and cells with the signs of all factors."""
+    """The question that an answer is to, where its steps begin in the log, whether the answer is as short as its cells
+    allow, and cells with the signs of all factors."""
 
     question: Formula
     mark: int
+    settled: bool = False
     cells: CellTable | None = None
 
 

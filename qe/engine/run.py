@@ -98,9 +98,10 @@ class _Run:
         if reduced is not None:
             return outcome  # which is an answer to a question, too: nothing is to be shortened
         made = outcome.certificate is not None or outcome.make is not None
-        if made or outcome.shortest or isinstance(outcome.formula, Constant):
+        if isinstance(outcome.formula, Constant):
             return outcome
-        return replace(outcome, formula=self.shortened(outcome.formula, Start(question, mark)))
+        start = Start(question, mark, settled=made or outcome.shortest)
+        return replace(outcome, formula=self.shortened(outcome.formula, start))
 
     def outcome_at_length(self, question: Formula, problem: Block | None) -> Outcome:
         """The same, not yet shortened."""

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from qe.elimination.protocol import Context
 from qe.engine.constant import constant
 from qe.engine.factor_signs import has_products, signs_of_factors
-from qe.engine.implied import affine_hull_first, is_linear_conjunction
+from qe.engine.implied import affine_hull_first
 from qe.engine.redundant import Start, without_redundant_parts
 from qe.engine.strategy import allows
 from qe.engine.untangle import has_equations, untangled, untangled_negation
@@ -72,7 +72,7 @@ RULES: tuple[Rule, ...] = (
     Rule("equations", untangled, has_equations, Stage.EQUATIONS),
     Rule("equations of the negation", untangled_negation, stage=Stage.EQUATIONS),
     Rule("cells", read_off_cells, _has_few_cells),
-    Rule("affine hull", affine_hull_first, is_linear_conjunction, Stage.REDUNDANT, last=True),
+    Rule("affine hull", affine_hull_first, stage=Stage.REDUNDANT, last=True),
     Rule("redundant parts", without_redundant_parts, stage=Stage.REDUNDANT, last=True),
     Rule("signs of factors", signs_of_factors, has_products, Stage.REDUNDANT, last=True),
     Rule("constant", constant, last=True),
@@ -90,6 +90,7 @@ def shortened(
         return formula
     for rule in RULES:
         off = rule.stage in context.options.without or (rule.last and start is None)
+        off |= start is not None and start.settled and rule.apply is not affine_hull_first
         again = rule.apply is read_off_cells and known is not None and formula in known and length(formula)[1] < LONG
         if off or again or not rule.pays(formula, context):
             continue

@@ -1,4 +1,4 @@
-"""Linear inequalities without interior points: the equations of their affine hull, equivalent, shorter and proved."""
+"""Inequalities without interior points: the equations of their affine hull, equivalent, shorter and proved."""
 
 import random
 
@@ -46,3 +46,20 @@ def test_random_polytopes_without_interior_points() -> None:
         assert answer.guarantee is Guarantee.CHECKED
         assert qe.equivalent(answer.formula, text), text
         assert len(str(answer.formula)) <= len(str(formats.read(text, "text"))) + 2
+
+
+@each(
+    ("all t. 0 <= t and t <= 1 -> x^2 + (y - t^3)^2 <= 1/4", "x = 0 and y = 1/2"),
+    ("all t. 0 <= t and t <= 1 -> (x - t)^2 + (y - t^2)^2 <= 1/2", "x = 1/2 and y = 1/2"),
+    ("x^2 + y^2 <= 2 and x + y >= 2 and z <= 3", "x = 1 and y = 1 and z <= 3"),
+    ("ex t. t = 0 and x^2 + y^2 <= 1 and (x - 3)^2 + y^2 <= 4", "x = 1 and y = 0"),
+    ("x^2 + y^2 <= 3 and x + y >= 2 and z <= 3", "x^2 + y^2 <= 3 and x + y >= 2 and z <= 3"),
+    ("x^2 + y^2 <= 2 and x^2 - y^2 >= 2", None),
+)
+def test_two_discs_that_touch_are_a_point(text: str, wanted: str | None) -> None:
+    """Two touching discs were printed where the point is the answer."""
+    answer = qe.eliminate(text, check=True)
+    assert answer.guarantee is Guarantee.CHECKED and qe.equivalent(answer.formula, wanted or text)
+    assert wanted is None or len(str(answer.formula)) == len(wanted)
+    plainly = qe.eliminate(text, without="shortening")
+    assert qe.equivalent(plainly.formula, answer.formula)

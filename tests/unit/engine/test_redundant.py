@@ -219,7 +219,7 @@ def on_cells(text: str, cells_of: str | None = None, *, whole: bool = True) -> t
     tactics = Tactics(whole_free=whole)
     table = decompose(matrix, matrix.free, ("",) * len(matrix.free), budget=Budget(), tactics=tactics).table
     context = Context(Options(), Budget(), log, decide)
-    shorter = without_redundant_parts(read_formula(text), context, Start(matrix, 0, table))
+    shorter = without_redundant_parts(read_formula(text), context, Start(matrix, 0, cells=table))
     return str(shorter), len(asked), log
 
 
