@@ -64,15 +64,19 @@ _AND = re.compile(r" ?,? ?\b(?:(?:and )?(?:with|such that|satisfied)|, and)\b ?:
 _NOT_REAL = re.compile(
     r"(?i)\b(?:positive|negative|all|any|some|are|be|an|for|the|distinct|of)\s+(integers?|natural\s+numbers?|rationals?)\b"
 )
+_FOR_ALL = rf",? ?for (?:all|any|every) (?:values of )?(?:constant )?({F})"
+_EVERY = re.compile(rf"{_FOR_ALL} ?[,:] ?(.+)|(.+?) {_FOR_ALL}")
 _UNNAMED = re.compile(r"\bfor (?:all|every|any) values$")
 _ROOTS = re.compile(
     rf"(quadratic )?(system )?({F}) (?:to )?has (?:({COUNT}) )?{KINDS}(?:root(s?))"
     rf"(?: (?:(?:which|that) are )?((?:and|{SIGN}| )+?))?(?: for ({F}))?"
     rf"(?: (?:{PLACE}|(?:that are )?of opposite signs))?"
 )
-_SEPARATED = re.compile(rf"({F}) has one root {PLACE} and (?:other|one)(?: root)? {PLACE}")
+_SEPARATED = re.compile(
+    rf"(?:quadratic )?({F}) has one root (?:is )?{PLACE} and (?:other|one)(?: root)?(?: is)? {PLACE}"
+)
 _MEETING = re.compile(
-    rf"(?:is |does |do )?({F}) (?:is |are )?(meet|touch|tangent to) ({F})"
+    rf"(?:is |does |do )?({F}) (?:(?:does|do) (not) )?(?:is |are )?(meet|touch|tangent to) ({F})"
     rf"(?: (?:at|in) ({COUNT})(?: distinct)* points)?"
 )
 _ALWAYS = re.compile(rf"(is )?({F}) (?:(is|be) )?(always )?({SIGN})(?: (for (?:all|every|any) .*))?")
@@ -88,7 +92,9 @@ _WITHIN = re.compile(r"(?:domain\s*=\s*)?Interval(?:\.([LR]?)open)?\(\s*([^,()]+
 _DOMAIN = re.compile(r"(?:domain\s*=\s*)?S?\.?Reals|real\b|\w+\s*=\s*(?:True|False|real|Q\.real\(\w+\)|'[^']*')")
 _NAMES = re.compile(rf"(?:{LISTED}|[\[({{]\s*(?:{LISTED}(?:\s*,\s*{LISTED})*)?\s*[\])}}])")
 
-_SUBJECT = r" ?,? (?:subject to(?: condition)?(?: that)?|such that|given|under|where|when|for|with|over|on|if) :? ?"
+_SUBJECT = (
+    r" ?,? (?:subject to(?: condition)?(?: that)?|such that|given(?: that)?|under|where|when|for|with|over|on|if) :? ?"
+)
 _OPTIMUM = re.compile(
     rf"(?:(?:(?:find|what is) )?({BEST})(?: possible)?(?: values)?(?: (?:of|that|which))? ?:? ?(?:{THINGS})? ?)?"
     rf"({F})(?: can take)?((?:{_SUBJECT}.+)?)"
@@ -119,13 +125,7 @@ def plainly(text: str) -> Question:
     if sort := _NOT_REAL.search(short):
         raise InputError(f"all variables are real, {sort[1]} cannot be asked for")
     said = Sentence(short)
-    constants: list[str] = []
-    said.words = re.sub(
-        rf" ?[.,]? (?:where|note :?|here) ({F} (?:is|are)(?: (?:{SIGN}|distinct|constant|numbers))+)(?: ,)?",
-        lambda where: constants.append(_premise(said, where[1])) or "",  # type: ignore[func-returns-value]
-        said.words,
-    ).strip()
-    question = _read(said, " and ".join(filter(None, constants)))
+    question = _read(said, " and ".join(filter(None, (_premise(said, where) for where in said.where))))
     is_clear = question is not None and not _STRAY.search(question.formula)
     return question if question is not None and is_clear else Question(text)
 
@@ -147,17 +147,20 @@ def _read(said: Sentence, known: str) -> Question | None:
             raise InputError(f"{unnamed[0]}: the name of a variable expected behind it, as in for all real values of x")
         rest = f"{rest[: unnamed.start()]}for all {others.pop()}"
     forms = (_separated, _counted, _meeting, _always)
-    for parts in ([rest], rest.split(" and ")):
+    every = _EVERY.fullmatch(rest) if begins and begins["proved"] else None
+    claimed = (every[2] or every[3]) if every else rest
+    names = tuple(said.names(every[1] or every[4])) if every else names
+    for parts in ([claimed], claimed.split(" and ")):
         claims = [next(filter(None, (form(said, part, names) for form in forms)), "") for part in parts]
         if all(claims):
             break
     formula = _both(*claims) if all(claims) else None
     if formula is None and _TRIANGLE.match(rest):
         formula = _premise(said, rest)
+    if begins and begins["proved"]:
+        return Question(_closed(formula or _claim(said[rest]), known))
     if formula is None and begins:
         formula = said[rest]
-        if begins["proved"]:
-            return Question(_closed(_claim(formula), known))
     if formula is not None:
         _no_other_variables(known, formula)
     return None if formula is None else Question(_both(known, formula), names)
@@ -200,9 +203,11 @@ def _premise(said: Sentence, text: str) -> str:
     def sorted_names(match: re.Match[str]) -> str:
         where = match[1] or match[7] or match[8]
         listed, sign = said.names(where), match[3] or match[6]
-        if match[0].strip() == match[1] or not LIST.fullmatch(said[where]):
+        if match[0].strip() == match[1]:
             return match[0]
         parts = [f"{', '.join(listed)} {SIGNED[sign]} 0"] if sign else []
+        if not LIST.fullmatch(said[where]):
+            return f" {said.put(' and '.join((said[where], *parts)))} " if _RELATED.search(said[where]) else match[0]
         parts += [f"{a} /= {b}" for a, b in combinations(listed, 2) if match[2]]
         parts += [f"{said.joined(match[4], match[1])} = {said[match[5]]}"] if match[4] else []
         return f" {said.put(' and '.join(parts))} " if parts else " "
@@ -340,11 +345,12 @@ def _separated(said: Sentence, text: str, sought: tuple[str, ...]) -> str | None
 def _meeting(said: Sentence, text: str, sought: tuple[str, ...]) -> str | None:
     """``the line y = f meets the curve g in two points``; None for another text. The line is tangent where the equation
     for x has a double root."""
-    meeting = _MEETING.fullmatch(re.sub(rf"^(?:do )?({F}) and ({F}) (meet|touch)\b", r"\1 \3 \2", text))
-    if meeting is None:
+    text = re.sub(rf"^(?:do )?({F}) and ({F}) ((?:do not )?(?:meet|touch))\b", r"\1 \3 \2", text)
+    meeting = _MEETING.fullmatch(text)
+    if meeting is None or (meeting[2] and (meeting[5] or meeting[3] != "meet")):
         return None
-    how, many = meeting[2], meeting[4]
-    first, second = said[meeting[1]], said[meeting[3]]
+    how, many = meeting[3], "no" if meeting[2] else meeting[5]
+    first, second = said[meeting[1]], said[meeting[4]]
     for graph, other in ((first, second), (second, first)):
         y, _, value = (part.strip() for part in graph.partition("="))
         if re.fullmatch(WORD, y) and y not in _names(value) and "=" in other:
@@ -387,7 +393,10 @@ def _always(said: Sentence, text: str, sought: tuple[str, ...]) -> str | None:
     if re.search(r"[=<>≤≥≠∃∀]", term):
         return None
     claim = f"{term} {SIGNED[always[5]]} 0"
-    return f"{said[always[6]]}: {claim}" if always[6] else _closed(claim)
+    if always[6]:
+        return f"{said[always[6]]}: {claim}"
+    solved = _equation(term, sought) if sought else None
+    return None if sought and not solved else f"all {solved[1]}. {claim}" if solved else _closed(claim)
 
 
 # --- optima -----------------------------------------------------------------------------------------------
@@ -400,7 +409,7 @@ def optimum_in_words(text: str) -> tuple[int, str, str] | None:
         objective, conditions = _at_comma(text)
         return _optimum(0, objective, conditions) if conditions else None
     objective, behind = _at_comma(said[goal[2]])
-    under = [_premise(said, part) for part in re.split(_SUBJECT, goal[3]) if part]
+    under = [_premise(said, part) for part in (*said.where, *re.split(_SUBJECT, goal[3])) if part]
     sign = 0 if goal[1] is None else 1 if goal[1] in LEAST.split() else -1
     return _optimum(sign, objective, ", ".join(filter(None, (*under[::-1], behind))))
 
@@ -445,7 +454,7 @@ def _called(command: str, inside: str, condition: str = "") -> Question:
 
 def _typed(text: str) -> str:
     """The text without the LaTeX between dollars, if there are words around it: ``for which $a$ is $a^{2} \\ge 1$``."""
-    text = re.sub(r"(?<!\\)\\[()]", "$", text) if re.search(r"[A-Za-z]{3}[^\\]*\\\(", text) else text
+    text = re.sub(r"(?<!\\)\\[\[\]()]", "$", text) if re.search(r"[A-Za-z]{2}[^\\]*\\[\[(]", text) else text
     if "$" not in text or not re.search(r"[A-Za-z]", re.sub(r"\$[^$]*\$", "", text)):
         return text
     return re.sub(r"\$+([^$]*)\$+", lambda inside: as_text(inside[1]), text)

@@ -6,6 +6,7 @@ A word that is not in the vocabulary belongs to a formula, which cannot be read 
 from __future__ import annotations
 
 import re
+from collections.abc import Callable
 
 from qe.io.latex_lexer import LETTERS, as_text, is_latex
 from qe.io.surface import FUNCTIONS
@@ -15,10 +16,8 @@ from qe.spelling import QUOTED, is_product, unquoted
 
 LEAST = "minimum minimize minimise minimal minimized minimised min least smallest lowest small"
 GREATEST = "maximum maximize maximise maximal maximized maximised max greatest largest highest large"
-_NOUNS = (
-    "equation equations polynomial function expression quantity inequality inequalities cubic line curve circle"
-    " parabola ellipse hyperbola graph"
-)
+_CURVES = "curve circle parabola ellipse hyperbola graph"
+_NOUNS = "equation equations polynomial function expression quantity inequality inequalities cubic line " + _CURVES
 VOCABULARY = kinds("""
 find find determine calculate
 prove prove show verify
@@ -27,6 +26,7 @@ root root solution zero
 roots roots zeros zeroes solutions
 meet meet meets intersect intersects cut cuts
 touch touch touches
+give give gives make makes
 points point points
 greater greater larger bigger
 less less smaller
@@ -35,6 +35,7 @@ in in inside
 distinct distinct different unequal
 double double equal repeated
 numbers number numbers reals quantity quantities
+positive positives
 constant constant constants
 be be been
 such such so
@@ -60,6 +61,18 @@ _PIECE = re.compile(
     rf"|unique|{_DESCRIBED})\b))|(?P<WORD>(?<![\\\w])[^\W\d_]{{2,}}(?![\w(\[^_']))|{QUOTED}|\w+|\s+|.",
     re.DOTALL,
 )
+_NUMERALS = {number: word for word, number in COUNTS.items()}
+_TYPED: tuple[tuple[str, str | Callable[[re.Match[str]], str]], ...] = (
+    (r"\b([Nn])on[-\s]+(?=negative|zero|positive)", r"\1on"),
+    (r"\bs\.\s?t\.", "such that"),
+    (r"\+ve\b", "positive"),
+    (r"\b([xy])\s*-\s*axis\b", r"\1axis"),
+    (r"(?i)\bprove\s*/\s*disprove\b", "prove"),
+    (r",?\s*\(\s*\w+\s*(?:∈|\bin\b)\s*(?:R|ℝ)\s*\)", ""),
+    (r"[^\S\n]{2,}\(\d\)[^\S\n]*$", ""),  # the number of an equation
+    (r"\b([1-6])(?=\s+(?:real|distinct|different|roots?|solutions?|points?)\b)", lambda count: _NUMERALS[count[1]]),
+)
+"""What is typed in several ways, before the words are looked at."""
 F = r"§\d+"
 """A formula between the words. What follows are parts of sentences."""
 SIGN = rf"(?:{'|'.join(SIGNED)})"
@@ -72,7 +85,36 @@ PLACE = (
 _VALUES = r"(?:(?:all|set|range|possible|exact|two|values|constant|numbers|of|that|for|on|which|condition) )*"
 THINGS = rf"(?:straight )?(?:{'|'.join(_NOUNS.split())}|constant|condition)(?: of)? :?"
 _FOUND = rf"(?:quadratic )?{F}"
+_NOUN = rf"(?:straight )?(?P<noun>{_NOUNS.replace(' ', '|')})"
+_GIVEN = r"(?:(?:it is )?given(?: (?:also |instead )?that)?|let|consider|suppose(?: that)?|if|for)"
+_DEFINED = (
+    rf"(?:{_GIVEN} )?equation of {_NOUN}(?: (?P<name>{F}))? is (?P<means>{F})",
+    rf"(?:{_GIVEN} )?{_NOUN}(?: (?P<name>{F}))? has equation (?P<means>{F})",
+    rf"{_GIVEN} (?P<means>{F}) be (?P<lead>quadratic )?{_NOUN}",
+    rf"{_GIVEN} (?P<lead>quadratic )?{_NOUN} (?P<means>{F})",
+)
+"""Sentences that say what a curve, an equation or a name is, which is meant by them in what follows."""
+_NAMED = re.compile(rf"{_NOUN}(?: (?P<name>{F}))? with equation(?: (?P<means>{F}))")
+_MEANT = re.compile(
+    rf"\b(?:(?:given|this|same) )?(?P<lead>quadratic )?{_NOUN}(?: below| above)?(?! {F}| of| :| with| be)\b"
+    rf"|\bit(?= has| meet| touch| lie| is always)|(?:(?<=such that )|(?<=for which ))(?=(?:{COUNT}) roots?\b)"
+    rf"|(?:{_NOUN.replace('noun', 'called')} )?(?P<name>{F})"
+)
+_FUNCTION = re.compile(r"([fghFP])\s*\(\s*(\w(?:\s*,\s*\w)*)\s*\)\s*=(.*)", re.DOTALL)
+_WHERE = re.compile(
+    rf" ?[.,]? (?:where|with|note :?|here) ({F} (?:is|are)(?: (?:{SIGN}|distinct|constant|numbers))+)(?: ,)?"
+)
+_ENTIRELY = r"(?: (?:entirely|completely|wholly|strictly|always))*"
+_AXIS = re.compile(
+    rf"(?:(?:whole|entire|all)(?: of)? )?({F})"
+    rf"(?:(?: (?:is|lie))?{_ENTIRELY} (above|below)|((?: (?:does|do) not)? (?:meet|touch)))"
+    rf" xaxis(?: (?:at|in) ({COUNT})(?: distinct)? points)?"
+)
+_CONDITION = rf"\b(?:{SIGN}|not|no|all|any|every|assume|suppose|such|that|distinct|if|when|triangle)\b"
+_LEAD = rf"(?:in ,|(?:by|using|hence|thus|therefore|please)\b)(?:(?!{_CONDITION})[^§.])*?"
+"""Words in front of a question that say how, not what."""
 _RULES = (
+    (rf"^{_LEAD},? ?(?=(?:find|prove|solve|for (?:what|which))\b)", ""),
     (r"^(?:true or false|prove or disprove) :", "prove"),
     (r"\b(?:may|must|will|can) be\b|\bbe always\b", "is"),
     (r" [.,] giving answers? in .*? form| to §\d+ decimal places", ""),
@@ -83,7 +125,20 @@ _RULES = (
     (rf"^find condition (?:on {F} )?(?:(?:so|such) that|for|(?:for|under) which) ", ""),
     (r"^(?:(?:when )?does|when do|under (?:what|which) condition(?: on §\d+)? (?:does|do)) ", ""),
     (rf"\bfind condition (?:that is satisfied by|on) ({F})", r"find \1"),
+    (rf" (?:that|which) give (?={_FOUND} (?:{COUNT}) )", " for which give "),
+    (rf"\bgive ({_FOUND}) (?={COUNT})", r"\1 has "),
+    (rf",? ?(?:where|if) {F} (?:is|are)$|^to (?={BEST})", ""),
+    (rf"^(find {_VALUES}{F}) , (?=such that|for which)", r"\1 "),
+    (r"\bgiven (?:also|instead) that\b", "given that"),
+    (r"(?<=[.,] )(?:hence|thus|therefore)(?: or otherwise)? ,? ?(?=(?:find|prove)\b)", ""),
+    (
+        rf"({_FOUND}) has one ({SIGN}) root and (?:one|other|another) ({SIGN})(?: root)?",
+        r"\1 has one \2 root and \1 has one \3 root",
+    ),
+    (rf"(?<!all )\broots of ({_FOUND}) are(?= for\b| [.,]|$)", r"\1 has both roots"),
+    (rf"\bthen ({BEST} (?:possible )?(?:values )?of .+?) is$", r"find \1"),
     (r"\b(?:so that|in order that|(?<=\d )for which|satisfy)\b", "such that"),
+    (rf"^(?:find )?{_VALUES}({F}) such that (.+) (?:is|are) ?:?$", r"find \1 such that \2"),
     (rf"^(?:(?:what is|find) |(?=range|set|values)){_VALUES}(?={F} (?:such that|for|if|with|does|is)\b)", "find "),
     (rf"\b(?:find|what) {_VALUES}({F})(?: (?:can|may|are) (?:possible|take|has))?(?= [.]?$|$)", r"find \1"),
     (rf"^find ({F}) for ({F}) with (?=.*root)", r"find \1 such that \2 has "),
@@ -101,7 +156,7 @@ _RULES = (
     (r" has (?:(?:all|both) roots|only roots|all its roots)(?: real)?$", " has both roots"),
     (r"\bholds?$|\b(?:is|are) (?:valid|true)(?= for\b)", ""),
     (rf"(?:(?:is|are) )?({F}) and ({F}) (?:are )?both (?:solvable|has roots?)", r"\1 has root and \2 has root"),
-    (rf"^(?:solve )?system :? ?({F})$", r"solve : \1"),
+    (rf"^(?:solve )?system(?: of)? :? ?({F})$", r"solve : \1"),
     (rf"^(?:solve )({F}) for ({F})$", r"solve for \2 : \1"),
     (rf"^({F} are [^,.:]+) , (?=prove )", r"let \1 . "),
     (
@@ -110,13 +165,20 @@ _RULES = (
     ),
     (r" under (?=subject)| under $", " "),
     (
-        rf"^(?:(?:given|if|let|suppose|for)(?: that)? )?(.+?) ?[.,]? (?:then )?((?:find|what is) {BEST}.*)$",
+        rf"^(?:(?:given|if|let|suppose|for|know)(?: that)? )?(.+?) ?[.,]? (?:then )?((?:find|what is) {BEST}.*)$",
         r"\2 under \1",
     ),
     (rf"\bof expression for (.+?) :? ?({F})$", r"of \2 for \1"),
     (r"^prove (?:that )?for (?!all|any|every|some)(.+?) ,? ?(?:we has|it holds)(?: that)? ", r"prove if \1 then "),
 )
 """What is said for short in place of what people say, in this order."""
+
+
+def _kind(noun: str | None) -> str:
+    """Of a line, of a curve, or of what is said to be equations and functions alike."""
+    return "line" if noun == "line" else "curve" if noun in _CURVES.split() else "equation"
+
+
 LIST = re.compile(rf"{LISTED}(?:\s*,\s*{LISTED})*")
 _OF_TWO = re.compile(rf"\b(product|sum) of ({F})")
 _OPERATOR = re.compile(r"[-+*/^=<>(,]\s*$")
@@ -127,10 +189,14 @@ class Sentence:
 
     def __init__(self, text: str) -> None:
         self.formulas: list[str] = []
+        self.where: list[str] = []
+        self.functions: dict[str, tuple[str, str, str]] = {}
+        self.is_applied = False
         self.letters = {*re.findall(r"(?<![^\W\d_])[^\W\d_](?![^\W\d_])", text)}
         words: list[str] = []
         segment = ""
-        text = re.sub(r"\b([Nn])on[-\s]+(?=negative|zero|positive)", r"\1on", re.sub(r"\bs\.\s?t\.", "such that", text))
+        for typed, meant in _TYPED:
+            text = re.sub(typed, meant, text, flags=re.MULTILINE)
         for piece in _PIECE.finditer(text):
             word = (piece["WORD"] or "").lower()
             is_word = (
@@ -144,6 +210,7 @@ class Sentence:
             else:
                 segment += piece[0]
         words += self._segment(segment)
+        self._apply()
         self.words = re.sub(r"(?:[ .]*\.)?$", "", " ".join(filter(None, words)))
         at = 0
         while two := re.compile(rf"({F}) (?:, )?and ({F})").search(self.words, at):
@@ -153,8 +220,75 @@ class Sentence:
                 at -= 1
                 self.words = f"{self.words[:at]}{self.put(f'{left}, {right}')}{self.words[two.end() :]}"
         self.words = _OF_TWO.sub(lambda two: self.put(f"({self.joined(two[1], two[2])})"), self.words)
-        for pattern, meant in _RULES:
-            self.words = re.sub(" +", " ", re.sub(pattern, meant, self.words)).strip()
+        self.words = _WHERE.sub(lambda where: self.where.append(where[1]) or "", self.words).strip()  # type: ignore[func-returns-value]
+        self.words = _AXIS.sub(self._at_axis, self._with_meanings(self.words))
+        for pattern, said in _RULES:
+            self.words = re.sub(" +", " ", re.sub(pattern, said, self.words)).strip()
+
+    def _with_meanings(self, words: str) -> str:
+        """The words with what a noun or a name was defined to mean in its place, without the definitions; as they are
+        where nothing is defined, or what is meant is not clear."""
+        meanings: list[tuple[str, str, str]] = []
+        unused: set[str] = set()
+
+        def defined(at: re.Match[str]) -> str:
+            parts = at.groupdict()
+            name, means = parts.get("name"), (parts.get("lead") or "") + at["means"]
+            meanings.append((_kind(at["noun"]), self[name] if name else "", means))
+            if at.re is not _NAMED:
+                unused.add(means)
+            return f"{at['noun']} {at['means']}" if at.re is _NAMED else ""
+
+        def meant(at: re.Match[str]) -> str:
+            if at["name"]:
+                those = {means for _, name, means in meanings if name and name == self[at["name"]]}
+            else:
+                kind = _kind(at["noun"])
+                those = {means for other, _, means in meanings if kind == other}
+                if not those and len(meanings) == 1 and {kind, meanings[0][0]} != {"line", "curve"}:
+                    those = {meanings[0][2]}
+            if len(those) != 1:
+                return at[0]
+            means = those.pop()
+            unused.discard(means)
+            lead = "quadratic " if at["lead"] else ""
+            return lead + means.removeprefix(lead) + ("" if at[0] else " has ")
+
+        words = shorter = _NAMED.sub(defined, words)
+        for means, _, _ in self.functions.values():
+            shorter = re.sub(rf"({_GIVEN}) (?:function )?({means})\b", r"\1 function \2", shorter)
+        for pattern in _DEFINED:
+            whole = rf"(?:^|(?<=[.,] )|(?<=and )){pattern}(?: [.,]| and|$)(?: (?:and|then)\b)? ?"
+            shorter = re.sub(whole, defined, shorter)
+        behind = re.fullmatch(rf"(.*) [.:] ({F})", shorter)
+        if behind and not meanings and sum(at["noun"] is not None for at in _MEANT.finditer(behind[1])) == 1:
+            shorter, meanings = behind[1], [("equation", "", behind[2])]
+        replaced = _MEANT.sub(meant, shorter)
+        if self.is_applied:
+            unused -= {means for means, _, _ in self.functions.values()}
+        return words if unused or (replaced == shorter and not self.is_applied) else replaced.strip()
+
+    def _apply(self) -> None:
+        """Puts the values of the functions that are defined in the place of their applications."""
+        for name, (means, names, body) in self.functions.items():
+            applied = re.compile(rf"(?<!\w){name}\s*\*?\s*\(\s*{names}\s*\)")
+            for at, formula in enumerate(self.formulas):
+                if f"§{at}" != means:
+                    parts = applied.split(formula)
+                    self.formulas[at] = body if formula == name else f"({body})".join(parts)
+                    self.is_applied |= self.formulas[at] != formula
+
+    def _at_axis(self, at: re.Match[str]) -> str:
+        """What is said of a curve y = f and the x-axis, said of f; as it is for another curve."""
+        y, _, value = self[at[1]].partition("=")
+        if y.strip() != "y" or not value or re.search(r"[<>=≤≥]|\by\b", value):
+            return at[0]
+        term = self.put(value)
+        if at[2]:
+            return f"{term} is always {'positive' if at[2] == 'above' else 'negative'}"
+        if "touch" in at[3]:
+            return at[0] if "not" in at[3] else f"{term} has double root"
+        return f"{term} has {'no roots' if 'not' in at[3] else f'{at[4]} roots' if at[4] else 'roots'}"
 
     def _is_formula(self, word: str) -> bool:
         """Whether a word can stand in a formula: a function, a product, a Greek letter."""
@@ -165,9 +299,13 @@ class Sentence:
         before, inside, behind = re.fullmatch(r"([\s.,:;?]*)(.*?)([\s.,:;?]*)", text, re.DOTALL).groups()  # type: ignore[union-attr]
         marks = [[mark if mark in ",:" else "." for mark in part if mark in ".,:;?"] for part in (before, behind)]
         inside = re.sub(r"^'(\w+)'$", r"\1", re.sub(r"\(\s*\w+\s*∈\s*(?:R|ℝ)\s*\)$", "", inside.replace("–", "-")))
-        inside = re.sub(r"^[fg]\s*\(\s*\w(?:\s*,\s*\w)*\s*\)\s*=", "", inside)
         if inside and is_latex(inside):
             inside = as_text(inside)
+        if (function := _FUNCTION.fullmatch(inside)) and function[1] not in self.functions:
+            inside = function[3].strip()
+            if not re.search(r"[<>=≤≥]", inside):
+                names = r"\s*,\s*".join(re.findall(r"\w", function[2]))
+                self.functions[function[1]] = (f"§{len(self.formulas)}", names, inside)
         if said := re.fullmatch(rf"({LIST.pattern})\s*([.:])\s+(.+)", inside, re.DOTALL):  # for x: f
             return [*marks[0], self.put(said[1]), said[2], *self._segment(said[3]), *marks[1]]
         return [*marks[0], *([self.put(inside)] if inside else []), *marks[1]]

@@ -19,7 +19,7 @@ from qe.io.lowering import lower, lower_term
 from qe.io.parser import TERM, parsed
 from qe.io.substitution import over_one_ring
 from qe.io.surface import FUNCTIONS, Comparison, Every, Meet, Name, Node, Number, Quantification, Term
-from qe.io.text_errors import Failing, SyntaxFailure
+from qe.io.text_errors import Failing, SyntaxFailure, not_understood
 from qe.io.text_lexer import COMMANDS, KEYWORDS
 from qe.io.text_parser import is_latex, parser_of, products
 from qe.io.text_words import Question, in_words, split
@@ -59,7 +59,10 @@ def read_posed(
     """As ``read``; over the same ring what it assumes, c of ``Assuming[c, f]`` and ``Refine[f, c]``, TRUE without."""
     question = _question(_quoting(text, known))
     texts = [_written_out(question.formula), *([question.assumed] if question.assumed else [])]
-    formula, *assumed = over_one_ring(*(_lowered(part, source, known, total_division) for part in texts))
+    try:
+        formula, *assumed = over_one_ring(*(_lowered(part, source, known, total_division) for part in texts))
+    except ParseError as error:
+        raise not_understood(text, source, error) from None
     return formula, conj(assumed)
 
 
@@ -130,7 +133,10 @@ def read_graph(name: str, text: str) -> Formula:
 
 def read_term(text: str) -> Term:
     """The term that ``text`` is, as a surface tree. Names and errors as for ``read``."""
-    return cast(Term, parsed(parser_of(text), text, Failing(text, "<text>"), TERM))
+    try:
+        return cast(Term, parsed(parser_of(text), text, Failing(text, "<text>"), TERM))
+    except ParseError as error:
+        raise not_understood(text, "<text>", error) from None
 
 
 def read_node(text: str) -> Node:

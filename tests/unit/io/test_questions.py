@@ -135,6 +135,40 @@ from qe.io.questions import plainly
         ("find a such that the system x + y = a has a negative solution",
          "find a such that the system x + y = a has a negative solution"),
         ("Reduce[x^2 < 1, x, Reals, Cubics -> True, Quartics -> False]", "x^2 < 1"),
+        ("By considering the discriminant, or otherwise, find the range of values of 'k' that gives the equation 2 "
+         "distinct roots. $$x^2+kx+1=0$$", "k^2 > 4"),
+        ("Using x > 0, prove that x > -1", "Using x > 0, prove that x > -1"),
+        ("By symmetry and for positive numbers, prove that x > -1",
+         "By symmetry and for positive numbers, prove that x > -1"),
+        ("The equation of a curve is \\(y = x^2 + mx\\), where \\(m\\) is a constant, and the equation of a line is "
+         "\\(y = 1\\). Show that, for all values of \\(m\\), the line intersects the curve at two distinct points.",
+         "true"),
+        ("The curve $C$ has equation $y = x^2$ and the line $L$ has equation $y = mx - 1$. Given that $L$ intersects "
+         "$C$ at two distinct points, find the range of values of $m$.", "m^2 > 4"),
+        ("The equation of a curve is y = x^2 + k. The equation of a line is y = x. Find k such that it meets it",
+         "The equation of a curve is y = x^2 + k. The equation of a line is y = x. Find k such that it meets it"),
+        ("Given the circle x^2+y^2=1 and the line y = x, find k such that the line y = k meets the circle",
+         "Given the circle x^2+y^2=1 and the line y = x, find k such that the line y = k meets the circle"),
+        ("It is given that f(x) = x^2 - kx + k. If the equation f(x) = 0 has real roots find the range of k.",
+         "k <= 0 or k >= 4"),
+        ("Let f(x)=x^2+k. Find k such that f(2) = 0", "Let f(x)=x^2+k. Find k such that f(2) = 0"),
+        ("Let kx^2+2x+1=0 be a quadratic equation. Find k such that it has real roots.", "k /= 0 and k <= 1"),
+        ("The equation of a curve is y = x^2 - 6x + k, where k is a constant. Find the set of values of k for which "
+         "the whole of the curve lies above the x-axis.", "k > 9"),
+        ("Find k such that the curve y = x^2 + kx + 1 does not meet the x-axis", "k^2 < 4"),
+        ("Find k such that the curve y = x^2 + k does not lie below the x-axis",
+         "Find k such that the curve y = x^2 + k does not lie below the x-axis"),
+        ("Determine the values of k for which the line y = 4x + k does not intersect the curve y = x^2", "k < -4"),
+        ("for which k is x^2+kx+1 always positive?", "k^2 < 4"),
+        ("Prove/disprove that $x+y>0$ with $x$ and $y$ are positives.", "true"),
+        ("Prove that x^2 = k has two roots, where k is a positive constant", "true"),
+        ("Show that the roots of x^2 + px - q^2 = 0 are real for all values of p and q.", "true"),
+        ("Show that the roots of x^2 - 1 = 0 are not real", "Show that the roots of x^2 - 1 = 0 are not real"),
+        ("Prove that all the roots of x^3+px+q=0 are real", "Prove that all the roots of x^3+px+q=0 are real"),
+        ("Find all numbers a, such that x^2-ax-a = 0 has one positive root and one negative root.", "a > 0"),
+        ("Let $a<b$ be positive numbers. Prove that $a^2<b^2$.", "true"),
+        ("Solve the system of equations\n    x + yz = 2,    (1)\n    y + zx = 2,    (2)\n    z + xy = 2.    (3)",
+         "x = 1 and y = 1 and z = 1 or x = -2 and y = -2 and z = -2"),
     ),
 )  # fmt: skip
 def test_what_is_read(typed: str, meant: str) -> None:
@@ -203,6 +237,10 @@ def test_both_roots_and_one_on_either_side(p: int, q: int, bound: int) -> None:
         "Real numbers x and y satisfy the inequalities 2xy >= x + y > 0. What is the smallest value that x+y can take?",
         "$x$ is a positive number such that $x \\ge 1$. Find the minimum value of $x + 1/x$ to 2 decimal places.",
         "Find the minimum value of the following expression for positive real numbers \\(x\\): \\[x + \\frac{1}{x}\\]",
+        "To minimize f(x) = x + 1/x subject to the constraint x > 0",
+        "If x + 1/y = 2 where x and y are positive then the minimum value of x + 1/y is",
+        "Know that x*y = 1 and x > 0 find the minimum of x + y ?",
+        "Find the smallest possible value of $x + 1/x$ given that $x > 0$.",
         "minimize x + 1/x under x > 0",
         "minimize(x + 1/x, x=1/2..3, locus)",
         "minimize(x + y, [x*y = 1, x >= 0], [x, y])",
@@ -256,3 +294,10 @@ def test_lines_and_parabolas(a: int, b: int, c: int, m: int, how: str) -> None:
         "": points > 0,
     }
     assert bool(qe.decide(typed)) == wanted.get(how, touching)
+
+
+def test_words_that_are_not_understood_are_refused_in_one_line_that_says_so() -> None:
+    with pytest.raises(qe.ParseError, match=r"the words of this question are not understood.*as in: for which k"):
+        text.read("A line with slope m passes through the point of the curve y = x^2 that is nearest. Find m.")
+    with pytest.raises(qe.InputError, match="as in: the least value of x"):
+        qe.minimize("Find the least value of x^2 and the values of x at which it is reached")
