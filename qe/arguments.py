@@ -27,6 +27,7 @@ LONGEST_TIME = 1e9
 """Seconds; a longer limit is a mistake, and no clock of the system takes it."""
 
 MOST_MEMORY = 1 << 40
+MOST_BYTES = 64 << 20
 LONGEST_PART = 255
 """Bytes of the name of a file or a folder, on all usual systems."""
 LONGEST_NUMBER = 4000
@@ -55,13 +56,19 @@ def shown(value: object) -> str:
 
 def content(given: bytes | bytearray | Path, what: str) -> tuple[str, str]:
     """The text of bytes or of a file, and the ending of its name. Raises ``InputError`` where it cannot be read."""
+    data, ending = given if isinstance(given, bytes | bytearray) else b"", ""
     try:
-        data, ending = (given, "") if isinstance(given, bytes | bytearray) else (given.read_bytes(), given.suffix)
-        return bytes(data).decode("utf-8-sig"), ending.lower()
+        if isinstance(given, Path):
+            what, ending = str(given), given.suffix.lower()
+            with given.open("rb") as file:
+                data = file.read(MOST_BYTES + 1)  # some files of devices never end
+        if len(data) > MOST_BYTES:
+            raise InputError(f"{what}: at most {MOST_BYTES:,} bytes expected, more found")
+        return data.decode("utf-8-sig"), ending
     except OSError as error:
-        raise InputError(f"{what}: {error.filename}: {error.strerror}") from None
+        raise InputError(f"{what}: cannot be read: {error.strerror}") from None
     except UnicodeDecodeError:
-        raise InputError(f"{what}: text in UTF-8 expected, other bytes found") from None
+        raise InputError(f"{what}: UTF-8 text expected, other bytes found") from None
 
 
 def instance(value: object, kind: type[T], what: str, expected: str) -> T:

@@ -1,8 +1,5 @@
-"""What can be asked, said once: a Python function, a command, a word at the prompt and a row of docs/doors.md each.
-
-All four have the name of the row, take the same keywords (``settings``) with the same defaults, and say the same of
-themselves.
-"""
+"""What can be asked, said once: a Python function, a command, a word at the prompt and a row of docs/doors.md each,
+with one name, the same keywords (``settings``) and defaults."""
 
 from __future__ import annotations
 

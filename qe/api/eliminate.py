@@ -156,10 +156,8 @@ def _partial(formula: Formula, options: Options, limits: Limits) -> Partial:
 
 
 def unproved(sentence: Formula, budget: Budget) -> Answer:
-    """The answer to a sentence, in this process, for those who show no guarantee.
-
-    Rational values are put back into the sentence, which says as much as their certificate and needs no kernel.
-    """
+    """The answer to a sentence, in this process, for those who show no guarantee: rational values are put back into the
+    sentence, which needs no kernel."""
     from qe.engine.posed import answer_to, answered
 
     refuse_shared(sentence)
@@ -196,10 +194,7 @@ def _answer_by(problem: Posed, options: Options, check: bool, method: Method, ch
 
 
 def _answer(problem: Posed, options: Options, check: bool, cluster: Cluster | None, budget: Budget) -> Answer:
-    """What the engine finds, which is loaded at the first call; verified where that is problem, or costs little.
-
-    Where the answer is to be proved, it is kept before. The processes of a cluster help.
-    """
+    """What the engine says, verified where that is wanted, or costs little; what is to be proved is kept before."""
     if cluster is not None:
         from qe.processes.cluster import helping
 
@@ -226,18 +221,15 @@ def _answer(problem: Posed, options: Options, check: bool, cluster: Cluster | No
 
 @with_settings(ProvedQuestion)
 def region(formula: AnyFormula, order: Order = None, **settings: Unpack[ProvedQuestion]) -> Region:
-    """The solution set of a formula in its free variables (or in ``order``, which may name more).
+    """The solution set of a formula in its free variables (or in ``order``, which may name more), as a cylindrical
+    description with a certificate; quantifiers are eliminated first.
 
-    Without ``order`` a quantified formula is described in the order in which its answer was found by critical values:
-    factors of that projection are part of the answer, and the other order may be much harder.
-    A cylindrical description with a certificate; quantifiers are eliminated first. For a conjunction of convex
-    quadratic conditions in four or more variables, or with existential quantifiers before it, membership, fibres
-    and bounds are found by exact optimisation, and the description only on request. The limits hold here and then for
-    every question that is asked of the region. With ``check`` the description is made at once (not where there are
-    four or more variables and convex conditions) and verified, and ``Region.answer`` has the elimination of the
-    quantifiers with its derivation; ``Region.guarantee`` and ``reason`` say what came of it, ``Region.proof`` is for
-    others.
-    Raises ``BudgetExceeded`` at a limit.
+    Without ``order`` a quantified formula is described in the order in which its answer was found: the other may be
+    much harder. For a conjunction of convex quadratic conditions in four or more variables membership, fibres and
+    bounds are found by exact optimisation, and the description on request. The limits hold here and for every question
+    that is asked of the region. With ``check`` the description is made at once and verified; ``Region.guarantee`` and
+    ``reason`` say what came of it, ``Region.answer`` has the elimination, ``Region.proof`` is for others. Raises
+    ``BudgetExceeded`` at a limit.
     """
     limits, names = limits_of(settings), arguments.names(order)
     whole, check = replace(limits, start=None), settings["check"]
@@ -265,12 +257,10 @@ def verify(
 ) -> Verdict:
     """Whether separate code accepts the certificate, within ``timeout`` seconds (None: no limit); see ``qe.certify``.
 
-    With ``formula``, also whether it is about that question, or its negation, up to the names of bound variables and
-    the order of conjuncts and disjuncts; if not, it is rejected at ``claim``. ``assuming``: what that question was
-    asked under (``Answer.assuming``). With ``core``, a certificate that needs rules of the expert ring
-    (``Certificate.trusts`` names them) is rejected at ``core``. Past the limit the verdict is
-    neither accepted nor ``decided``. Raises ``InputError`` for what is no certificate, a formula that cannot be read
-    and a limit that is not positive.
+    With ``formula``, also whether it is about that question (under ``assuming``), or its negation, up to the names of
+    bound variables and the order of conjuncts and disjuncts. With ``core``, a certificate that needs rules of the
+    expert ring (``Certificate.trusts``) is rejected. Past the limit the verdict is neither accepted nor ``decided``.
+    Raises ``InputError`` for what is no certificate, formula or limit.
     """
     from qe.api.verify import verify as check
 

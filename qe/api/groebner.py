@@ -61,12 +61,11 @@ def comprehensive_groebner(
 
     Algorithm of Kapur, Sun and Wang (ISSAC 2010; JSC 49, 2013). ``polys``: a list of polynomials over Q (text,
     ``Poly``, SymPy). ``variables``: largest first; ``parameters``: by default all other names, sorted. ``order``: of
-    the monomials in the variables, ``"grevlex"``, ``"grlex"`` or ``"lex"``. ``constants``: names that stand for real
-    algebraic numbers (``RealAlgebraic``, SymPy numbers), treated exactly by their minimal polynomials. ``equal`` and
-    ``nonzero``: polynomials in the parameters; only where the former vanish and none of the latter does segments are
-    made; ``assuming`` says the same, and leaves out segments where it cannot hold. ``faithful``: every segment also has
-    elements of the given ideal itself with the same values as its basis.
-    Raises ``InputError``, ``Unable`` where bases grow too large, ``BudgetExceeded``.
+    the monomials, ``"grevlex"``, ``"grlex"`` or ``"lex"``. ``constants``: names that stand for real algebraic numbers
+    (``RealAlgebraic``, SymPy numbers). ``equal`` and ``nonzero``: polynomials in the parameters; segments are made only
+    where the former vanish and none of the latter does; ``assuming`` says the same. ``faithful``: every segment also
+    has elements of the given ideal itself with the same values as its basis. Raises ``InputError``, ``Unable`` where
+    bases grow too large, ``BudgetExceeded``.
     """
     limits = limits_of(settings)
     chosen = _ORDERS[arguments.member(order, Order, "order")]

@@ -87,11 +87,8 @@ def read_assumptions(given: AnyFormula) -> Formula:
 
 
 def note_doubts(given: AnyFormula, formula: Formula, format: str = "text", solved: Sequence[str] = ()) -> None:
-    """Warn of what may have been meant otherwise in what was given and read as this formula, which is to be ``solved``
-    for some variables (``DoubtfulInput``).
-
-    A ``Formula`` or an answer was made or read before.
-    """
+    """Warn (``DoubtfulInput``) of what may have been meant otherwise in what was given and is read as this formula,
+    which is to be ``solved`` for some variables; a ``Formula`` or an answer was made or read before."""
     from qe.formula.doubts import doubts
 
     if isinstance(given, Formula | Answer):
@@ -117,11 +114,8 @@ def warned(notes: Iterable[str]) -> None:
 
 
 def read_block(given: AnyFormula, format: str = "text", total_division: bool = False) -> Read:
-    """As ``read_posed``; the formula has its outermost quantifier also where reading would drop it because its body is
-    true or false.
-
-    Text and ``qe.Exists``/``qe.ForAll`` still tell which it is; other formulas come without it.
-    """
+    """As ``read_posed``; the formula has its outermost quantifier, which text and ``qe.Exists``/``qe.ForAll`` tell,
+    also where reading would drop it because its body is true or false."""
     formula, known = read_posed(given, format, total_division)
     if not isinstance(formula, Constant):
         return formula, known
@@ -154,10 +148,8 @@ def names_typed(given: AnyFormula) -> set[str]:
 
 
 def order_of(order: Any, given: AnyFormula, formula: Formula) -> tuple[str, ...] | None:
-    """Those names of an order that a formula has, which was read from what was given, or made of it.
-
-    Raises ``InputError`` for names of neither, and for what is no order.
-    """
+    """Those names of an order that a formula has, which was read from what was given, or made of it. Raises
+    ``InputError`` for names of neither."""
     names, known = arguments.names(order), set(names_in(formula))
     if names is None:
         return None
@@ -205,11 +197,8 @@ def _texts(given: AnyFormula) -> Iterator[str]:
 
 
 def read_polynomial(given: AnyFormula, what: str, *, known: Container[str] = ()) -> tuple[Poly, Fraction]:
-    """The given term as a polynomial p and a rational s: it is s*p. Both may be given as they are, as a pair.
-
-    ``known``: names that are variables whatever else they may mean (``pi``). Raises ``InputError`` for text and objects
-    that are no polynomial over Q.
-    """
+    """The given term as a polynomial p and a rational s: it is s*p (or they are given, as a pair). ``known``: names
+    that are variables whatever else they may mean (``pi``). Raises ``InputError`` for what is no polynomial over Q."""
     if isinstance(given, Poly):
         return given, Fraction(1)
     if isinstance(given, tuple) and len(given) == 2 and isinstance(given[0], Poly) and isinstance(given[1], Fraction):
@@ -237,10 +226,8 @@ def read_polynomial(given: AnyFormula, what: str, *, known: Container[str] = ())
 
 
 def read_objective(given: AnyFormula, taken: Iterable[str]) -> Objective:
-    """A term to be optimised, polynomial or not (quotients, roots, ``abs``, ``min``, ``max``, ``pi``).
-
-    ``taken``: the names of the rest of the problem. Raises ``InputError`` for what is no term.
-    """
+    """A term to be optimised, polynomial or not (quotients, roots, ``abs``, ``min``, ``max``, ``pi``); ``taken``: the
+    names of the rest of the problem. Raises ``InputError`` for what is no term."""
     from qe.optimization.values import Objective, new_name
 
     is_term = isinstance(given, str) or any(hasattr(given, mark) for mark in ("free_symbols", "term", "sexpr"))

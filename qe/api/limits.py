@@ -62,10 +62,9 @@ def posed(
 ) -> Posed:
     """The formula, to be ``solved`` for these, and what is assumed, read under the limits where that may take long.
 
-    ``numbers``: whether numbers that are not algebraic (``qe.formula.numbers``) may occur. Raises ``BudgetExceeded`` at
-    a limit, ``InputError`` for what cannot be assumed, ``Unable`` for a formula whose parts are shared so much that no
-    method, all of which write it out, comes to an end. Warns of assumptions that contradict each other, and of such
-    about something else.
+    ``numbers``: whether numbers that are not algebraic (``qe.formula.numbers``) may occur. Raises ``BudgetExceeded``,
+    ``InputError`` for what cannot be assumed, ``Unable`` where shared parts, written out, are much too long. Warns of
+    assumptions that contradict each other or are about something else.
     """
     format, division = settings.get("format", "text"), settings.get("total_division", False)
     assuming = settings.get("assuming")

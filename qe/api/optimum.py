@@ -74,17 +74,13 @@ def minimize(
     """The exact global minimum of a term where it has a value and the constraints hold.
 
     ``objective``: text, ``Poly``, a pair of p and a rational s for s p, or a SymPy expression; a polynomial, or made
-    with quotients, roots, ``abs``, ``min`` and ``max``; or ``Minimize[{f, c}, {x, y}]``, as Mathematica has it.
-    ``constraints``: a formula, or a list of them to be conjoined.
-    Convex quadratic (or linear) problems get an ``Optimum`` with multipliers; all others are solved by elimination,
-    with quantifiers in the constraints if need be, and get a ``GlobalOptimum`` with all minimisers. ``method``:
-    "convex" or "elimination" takes that way only.
-    ``parameters``: variables that are not optimised over; the answer is a ``ParametricOptimum``: value and points as
-    functions of them (``pi`` is always one).
-    That there is no optimum is an answer too: ``status`` says ``UNBOUNDED`` or ``INFEASIBLE``, and ``value`` is None.
-    With ``check`` its certificate is verified: ``guarantee`` is ``CHECKED``, or ``reason`` says why not; an elimination
-    comes with its derivation (``answer``).
-    Raises ``Unable`` where no proof was found, ``BudgetExceeded`` at a limit.
+    with quotients, roots, ``abs``, ``min`` and ``max``; or Mathematica's ``Minimize[{f, c}, {x, y}]``. ``constraints``:
+    a formula, or a list of them that hold together. Convex quadratic (or linear) problems get an ``Optimum`` with
+    multipliers; all others a ``GlobalOptimum`` with all minimisers, by elimination (``method``: "convex" or
+    "elimination" takes that way only). ``parameters``: variables that are not optimised over; the answer is a
+    ``ParametricOptimum``: value and points as functions of them (``pi`` is always one). That there is no optimum is an
+    answer too: ``status``. With ``check`` its certificate is verified: ``guarantee``, ``reason``. Raises ``Unable``
+    where no proof was found, ``BudgetExceeded`` at a limit.
     """
     return _best(1, objective, constraints, parameters, method, settings)
 

@@ -1,9 +1,7 @@
 """What a caller can set, said once: name, type, default, check, meaning, and the option of the command line.
 
-A public function takes some of these classes as its keywords (``**settings: Unpack[…]``), which is what type checkers
-and editors read. ``with_settings`` gives it the signature and the documentation in full, refuses other keywords, and
-hands it all of them, checked. The options of the commands (``qe.cli.options``), the settings of the prompt and the
-table in docs/api.md come from here.
+A public function takes some of these classes as its keywords (``**settings: Unpack[…]``); ``with_settings`` gives it
+the signature and the documentation in full. Options of commands, settings of the prompt and docs/api.md come from here.
 """
 
 from __future__ import annotations

@@ -47,11 +47,10 @@ TEXT_WORK, TABLE_WORK = 20_000, 4_000
 def solve(formula: AnyFormula, variables: Any = None, **settings: Unpack[ProvedQuestion]) -> Solutions:
     """All real solutions, case by case, as Mathematica's ``Reduce`` writes them (cylindrical decomposition).
 
-    ``variables``: those to solve for, in their order; they come after all others, so that each is expressed in terms of
-    the parameters and of the variables before it. Without them x, y, z (perhaps with an index) are meant, with a note,
-    in this order; where there are none of them all free variables, in the formula's order.
-    Quantifiers are eliminated first. With ``check`` the decomposition and the text are proved: ``guarantee``.
-    Raises ``InputError`` for what cannot be read, ``Unable`` (``BudgetExceeded`` at a limit) where elimination does.
+    ``variables``: those to solve for, in their order; each is expressed in terms of the parameters and of the variables
+    before it. Without them x, y, z (perhaps with an index) are meant, with a note; without these all free variables.
+    With ``check`` the decomposition and the text are proved: ``guarantee``. Raises ``InputError``, and ``Unable`` where
+    the elimination of quantifiers does.
     """
     asked = solved_for(formula) if variables is None and isinstance(formula, str) else variables
     limits, wanted = limits_of(settings), arguments.names(asked, "variables")

@@ -57,10 +57,7 @@ def verify(
 
 
 def read_plainly(text: str, seconds: float) -> Verdict:
-    """The verdict of the plain reader on a certificate in JSON, in a process of its own without FLINT (``qe.plain``).
-
-    Raises ``InputError`` for what is no certificate.
-    """
+    """The verdict of the plain reader on a certificate in JSON (``qe.plain``), in a process without FLINT."""
     budget = Budget(seconds)
     try:
         Certificate.from_json(text)
@@ -87,11 +84,8 @@ def of_question(certificate: Certificate, asked: Formula) -> Verdict:
 
 
 def with_verdict(answer: Answer, budget: Budget, *, checked: bool = False) -> Answer:
-    """The answer with the guarantee that its certificate gives, which the checkers may have accepted already.
-
-    A certificate that is not verified in the time that the budget leaves is dropped, and the reason noted: the answer
-    follows from the algorithms all the same.
-    """
+    """The answer with the guarantee that its certificate gives, which the checkers may have accepted already. One that
+    is not verified in the time that is left is dropped, and the reason noted."""
     guarantee, reason = (Guarantee.CHECKED, "") if checked else judged(answer.certificate, budget)
     if guarantee is Guarantee.CHECKED:
         return replace(answer, guarantee=guarantee)
@@ -100,12 +94,11 @@ def with_verdict(answer: Answer, budget: Budget, *, checked: bool = False) -> An
 
 
 def with_derivation(answer: Answer, timeout: float | None = None) -> Answer:
-    """The answer with its own derivation as its certificate, evidence for each step found now and verified.
+    """The answer with its own derivation as its certificate, evidence for each of its steps made now and verified.
 
-    Nothing is eliminated again: the steps are those that led to the answer, whether or not a check was asked for then.
     Where a step has no accepted evidence, a decomposition of the question takes their place, as with ``check=True``.
-    Where that does not end, or ``timeout`` (seconds) is over, the answer has no certificate and the
-    guarantee ``DERIVED``; ``unchecked_steps`` and ``reason`` say why. Raises ``Unable`` for what is no answer.
+    Where that does not end within ``timeout`` seconds, ``guarantee`` stays ``DERIVED``; ``unchecked_steps`` and
+    ``reason`` say why. Raises ``Unable`` for what is no answer.
     """
     if answer.formula is None or answer.question is None:
         raise Unable(f"there is no derivation: {answer.reason or 'nothing was asked'}")

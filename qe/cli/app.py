@@ -247,10 +247,8 @@ def prompt() -> int:
 def answered(
     work: Callable[..., Reply], source: str, format: Format | None, given: Mapping[str, Any], **files: Path | None
 ) -> int:
-    """The exit status of a command whose work is done, and its answer printed and written.
-
-    Options and files are checked before anything is read.
-    """
+    """The exit status of a command whose work is done, and its answer printed and written. Options and files are
+    checked before anything is read."""
     files["certificate"] = certificate = given.get("certificate")
     settings = checked({name: value for name, value in given.items() if name not in REPORT})
     check_writable(certificate)

@@ -1,11 +1,11 @@
 """The prompt that ``qe`` opens on a terminal: one question after the other, ``%`` is the last answer.
 
-A line whose brackets are open, or that ends where more has to come, goes on in the next one. With prompt_toolkit (the
-extra ``prompt``) lines can be edited and are kept over sessions; without it, as far as Python does that itself.
+A line whose brackets are open, or that ends where more has to come, goes on in the next one.
 """
 
 from __future__ import annotations
 
+import atexit
 import os
 import re
 import shlex
@@ -43,7 +43,7 @@ HELP = """A formula is answered by one without quantifiers, a sentence by true o
   :help   :quit (or Ctrl-D)     Ctrl-C ends a question that takes too long"""
 
 _MORE = re.compile(r"(?:[-+*/^=<>,.:&|]|\\|\b(?:and|or|not|implies|iff|then|else|if|AND|OR|NOT))\s*$")
-_COUNT = re.compile(r"\s*([0-9]{1,6})\s*:")
+_COUNT = re.compile(r"(?s)\s*(?:([0-9]{1,6})\s*:)?(.*)")
 _NUMBER = re.compile(r"-?[0-9]{1,9}(?:\.[0-9]{1,9})?")
 _LAST = re.compile(r"(`(?:[^`\\]|\\.)*`)|%")
 OLDER = {word: door.name for door in DOORS.values() for word in (*door.words, *door.also)}
@@ -111,7 +111,7 @@ class Session:
         return self._answered(qe.eliminate(line, **self.settings))
 
     def _simplify(self, rest: str) -> str:
-        return self._answered(qe.simplify(rest, **self._those_of("simplify")))
+        return self._answered(self._asked("simplify", rest))
 
     def _answered(self, answer: qe.Answer) -> str:
         if answer.formula is None:
@@ -127,20 +127,17 @@ class Session:
         return "\n".join(lines)
 
     def _decide(self, rest: str) -> str:
-        return self._keep(None, str(qe.decide(rest, **self._those_of("decide"))).lower())
+        return self._keep(None, str(self._asked("decide", rest)).lower())
 
     def _solve(self, rest: str) -> str:
         names, colon, formula = rest.partition(":")
         named = bool(colon) and not re.search(r"[=<>.()]|\b(ex|all|exists|forall)\b", names)
-        solutions = qe.solve(formula if named else rest, names if named else None, **self._those_of("solve"))
+        solutions = self._asked("solve", formula if named else rest, names if named else None)
         return self._keep(solutions, str(solutions))
 
     def _find(self, rest: str) -> str:
-        count = _COUNT.match(rest)
-        points = qe.find(
-            rest[count.end() :] if count else rest, int(count[1]) if count else 1, **self._those_of("find")
-        )
-        if not points:
+        count, formula = _COUNT.fullmatch(rest).groups()  # type: ignore[union-attr]
+        if not (points := self._asked("find", formula, int(count or 1))):
             return "there is none"
         return self._keep(None, " or\n".join(point_text(point, " and ") or "true" for point in points))
 
@@ -148,17 +145,16 @@ class Session:
         one, sign, two = rest.partition(";")
         if not sign:
             raise InputError("two formulas with ; between them expected, as in :equivalent x > 0 ; x^3 > 0")
-        return self._keep(None, str(qe.equivalent(one, two, **self._those_of("equivalent"))).lower())
+        return self._keep(None, str(self._asked("equivalent", one, two)).lower())
 
     def _witnesses(self, rest: str) -> str:
-        listed = qe.witnesses(rest, **self._those_of("witnesses"))
-        return "\n".join(map(str, listed)) or "there are none"
+        return "\n".join(map(str, self._asked("witnesses", rest))) or "there are none"
 
     def _verify(self, rest: str) -> str:
         return str(qe.verify(qe.Certificate.from_json(arguments.content(Path(rest), "certificate")[0])))
 
     def _region(self, rest: str) -> str:
-        region = qe.region(rest, self.settings.get("order"), **self._those_of("region"))
+        region = self._asked("region", rest, self.settings.get("order"))
         if region.is_empty:
             return self._keep(region, "false")
         lines = [f"dimension {region.dimension} in {', '.join(map(quoted, region.order))}"]
@@ -175,7 +171,7 @@ class Session:
 
     def _minimize(self, rest: str, door: str = "minimize") -> str:
         term, _, conditions = rest.partition(":")
-        best = getattr(qe, door)(term, conditions.strip() or "true", **self._those_of("minimize"))
+        best = self._asked(door, term, conditions.strip() or "true")
         if best.value is None:
             return str(best.status.name.lower())
         at = "not attained" if best.attained is False else point_text(best.point)
@@ -210,10 +206,10 @@ class Session:
             self.settings |= checked({name: int(value) if whole else value}, ":")
         return f"set: {self._all_settings()}"
 
-    def _those_of(self, name: str) -> dict[str, Any]:
-        """What has been set and the door of this name takes."""
-        takes = settings_in(DOORS[name].settings)
-        return {name: value for name, value in self.settings.items() if name in takes}
+    def _asked(self, door: str, *given: Any) -> Any:
+        """What the function of a door says, with what has been set and it takes."""
+        takes = settings_in(DOORS[door].settings)
+        return getattr(qe, door)(*given, **{name: value for name, value in self.settings.items() if name in takes})
 
     def _all_settings(self) -> str:
         return ", ".join(f"{name} {_written(value)}" for name, value in sorted(self.settings.items())) or "nothing"
@@ -257,29 +253,14 @@ def run(ask: Ask | None = None, put: Callable[[str], None] = print) -> int:
 
 
 def _reader() -> Ask:
-    """The best way to ask that there is."""
-    try:
-        from prompt_toolkit import PromptSession
-        from prompt_toolkit.history import FileHistory, History, InMemoryHistory
-        from prompt_toolkit.output import ColorDepth
-    except ImportError:
-        with suppress(ImportError):
-            import readline  # noqa: F401  (input() is edited by it)
-        return input
-    place = _history()
-    history: History = InMemoryHistory() if place is None else FileHistory(str(place))
-    depth = ColorDepth.DEPTH_1_BIT if os.environ.get("NO_COLOR") else None
-    prompt: PromptSession[str] = PromptSession(history=history, color_depth=depth)
-    return lambda shown: prompt.prompt(shown)
+    """Python's own way to ask, with lines that can be edited and are kept over sessions where the system knows how."""
+    with suppress(ImportError, OSError):
+        import readline
 
-
-def _history() -> Path | None:
-    """The file of earlier lines, where one can be kept."""
-    folder = Path(os.environ.get("XDG_STATE_HOME") or Path.home() / ".local" / "state") / "bezier-qe"
-    try:
-        folder.mkdir(parents=True, exist_ok=True)
-        place = folder / "history"
+        place = Path(os.environ.get("XDG_STATE_HOME") or Path.home() / ".local" / "state") / "bezier-qe" / "history"
+        place.parent.mkdir(parents=True, exist_ok=True)
         place.touch(mode=0o600)
-    except OSError:
-        return None
-    return place
+        atexit.register(readline.write_history_file, place)
+        if place.stat().st_size:
+            readline.read_history_file(place)
+    return input

@@ -81,10 +81,8 @@ def enter(app: typer.Typer, argv: Sequence[str] | None, *, name: str) -> int:
 
 
 def guarded(main: Callable[[], int], words: Sequence[str], *, name: str) -> int:
-    """The exit status of a command that was called with these words. Errors become exactly one line on stderr.
-
-    With ``--json`` what went wrong stands on stdout, too, as one object.
-    """
+    """The exit status of a command that was called with these words. Errors become exactly one line on stderr, with
+    ``--json`` one object on stdout, too."""
     sys.excepthook = _one_line_hook(name)
     sys.set_int_max_str_digits(0)  # the limits on input hold long numbers off, and answers may have them
     _open_streams()
@@ -212,11 +210,8 @@ def _options(command: Any) -> set[str]:
 
 
 def _open_streams() -> None:
-    """Make the standard streams usable even where the caller closed them.
-
-    What is not open reads as empty and takes no output, and no file or pipe opened later can get its number. Letters
-    that the terminal's encoding lacks are written by their numbers.
-    """
+    """Make the standard streams usable even where the caller closed them: no file opened later can get their numbers.
+    Letters that the terminal's encoding lacks are written by their numbers."""
     for number in range(3):
         try:
             os.fstat(number)
@@ -313,11 +308,9 @@ def limited(
     lines: bool = False,
     text: str | None = None,
 ) -> T:
-    """Do the work under hard limits, with a progress display; ``lines``: also where there is no terminal. It begins in
-    this process where nothing is limited and a ``text`` is read that is not long.
-
-    The time limit is the user's, for the whole command: what start-up has taken of it is gone.
-    """
+    """Do the work under hard limits, of which start-up has taken its part, with a progress display; ``lines``: also
+    where there is no terminal. It begins in this process where nothing is limited and a ``text`` is read that is not
+    long."""
     from qe.processes.channel import Known
     from qe.processes.execution import grace_of, run
     from qe.processes.limits import Limits

@@ -15,8 +15,9 @@ from functools import partial
 from typing import TYPE_CHECKING, Any, TextIO, cast
 
 import qe
+from qe.arguments import MOST_BYTES
 from qe.cli.smt_check import Checks, Result
-from qe.cli.source import MOST_BYTES, no_file, read_source
+from qe.cli.source import no_file, read_source
 from qe.errors import InputError, ParseError, Unable
 from qe.io import surface as s
 from qe.io.formats import Format
@@ -41,10 +42,8 @@ _INFO = {
 
 
 class Solver(Checks):
-    """The state of a solver. ``put`` takes the answers, ``warn`` what is only for people.
-
-    ``timeout``: seconds for the whole run, or (``each``) for every check.
-    """
+    """The state of a solver. ``put`` takes the answers, ``warn`` what is only for people; ``timeout``: seconds for the
+    whole run, or (``each``) for every check."""
 
     def __init__(
         self,

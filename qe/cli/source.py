@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import io
 import json
 import os
 import re
@@ -15,6 +14,7 @@ from importlib import import_module
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from qe.arguments import MOST_BYTES, content
 from qe.errors import InputError, Unable
 from qe.io import formats
 from qe.io.formats import BY_ENDING, Format
@@ -23,7 +23,6 @@ if TYPE_CHECKING:
     from qe.formula.syntax import Formula
     from qe.processes.channel import Channel
 
-MOST_BYTES = 64 << 20
 _FILE_LIKE = re.compile(rf"[^\s<>=]+({'|'.join(map(re.escape, BY_ENDING))})")
 
 
@@ -147,10 +146,7 @@ def certificate_text(answer: object) -> str:
 
 def read_source(argument: str, wanted: Format | None) -> Source:
     """The text behind a command-line argument: ``-`` is standard input, an existing file is read, else the text.
-
-    Without a wanted format a file's ending decides; otherwise the format is ``text``. Raises ``InputError``
-    for a file that cannot be read or is not UTF-8 text.
-    """
+    Without a wanted format a file's ending decides. Raises ``InputError`` for a file that cannot be read."""
     if argument == "-":
         try:
             given = sys.stdin.read(MOST_BYTES + 1)
@@ -159,9 +155,9 @@ def read_source(argument: str, wanted: Format | None) -> Source:
         if len(given) > MOST_BYTES:
             raise InputError(f"<stdin>: at most {MOST_BYTES:,} characters expected, more found")
         return Source(given.removeprefix("\ufeff"), wanted or Format.TEXT, "<stdin>")
-    path = Path(argument)
-    if is_file(path):
-        return Source(read_text(path), wanted or BY_ENDING.get(path.suffix.lower(), Format.TEXT), argument)
+    if is_file(path := Path(argument)):
+        text, ending = content(path, "file")
+        return Source(text, wanted or BY_ENDING.get(ending, Format.TEXT), argument)
     if _FILE_LIKE.fullmatch(argument.strip()):
         raise InputError(f"{argument}: no such file")
     return Source(argument, wanted or Format.TEXT, "<argument>")
@@ -175,18 +171,3 @@ def no_file(name: str) -> InputError:
 def is_file(path: Path) -> bool:
     """Whether the path names something to read; text that is no possible path is not one."""
     return os.path.exists(path) and not os.path.isdir(path)
-
-
-def read_text(path: Path) -> str:
-    """The content of a UTF-8 file, or ``InputError``; some files of devices never end."""
-    try:
-        with path.open("rb") as file:
-            data = file.read(MOST_BYTES + 1)
-        if len(data) > MOST_BYTES:
-            raise InputError(f"{path}: at most {MOST_BYTES:,} bytes expected, more found")
-        # editors may put a mark in front of the text
-        return io.TextIOWrapper(io.BytesIO(data), encoding="utf-8-sig").read()
-    except OSError as error:
-        raise InputError(f"{path}: cannot be read: {error.strerror}") from None
-    except UnicodeDecodeError:
-        raise InputError(f"{path}: UTF-8 text expected, other bytes found") from None

@@ -28,11 +28,9 @@ def take_leading_minus(command: Any) -> None:
 
 
 def take_plain_values(command: Any) -> None:
-    """Let the parameters of a command, and of those inside it, take plain values as they are.
-
-    typer has pydantic convert every value, even text and defaults, and loading that takes longer than many a problem.
-    Whatever is not certainly plain still goes there; so do all wrong values, and the messages are the same.
-    """
+    """Let the parameters of a command, and of those inside it, take plain values as they are: typer has pydantic
+    convert every value, and loading that takes longer than many a problem. What is not certainly plain still goes
+    there."""
     for inner in getattr(command, "commands", {}).values():
         take_plain_values(inner)
     listed = command.get_params

@@ -1,8 +1,5 @@
-"""What the commands do inside the worker: call the public functions, turn answers into plain text.
-
-Only text and plain data cross the border to the parent process, so nothing here depends on how answers
-are stored. Each function takes the channel first and returns a ``Reply``.
-"""
+"""What the commands do inside the worker: call the public functions, turn answers into text and plain data (``Reply``),
+which alone cross the border to the parent process."""
 
 from __future__ import annotations
 

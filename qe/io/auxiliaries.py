@@ -32,11 +32,9 @@ MOST_SUBSTITUTED = 2
 
 
 class Auxiliary(NamedTuple):
-    """A value called ``name``: the only one with ``definition`` where it is ``defined``.
-
-    ``radicand``: the t of sqrt(t), where it is one. ``loose``: any value will do, which weakens the comparison where it
-    is asserted and strengthens it where it is denied.
-    """
+    """A value called ``name``: the only one with ``definition`` where it is ``defined``. ``radicand``: the t of
+    sqrt(t), where it is one. ``loose``: any value will do, which weakens the comparison where it is asserted and
+    strengthens it where it is denied."""
 
     name: str
     definition: Formula
@@ -66,11 +64,8 @@ class Exhausted(Exception):
 
 
 class Auxiliaries:
-    """Values behind the names ``extra`` of a ring.
-
-    ``made``: the auxiliary values, in the order of their definitions (None: an unknown, which stays a variable).
-    ``loose``: whether some of them stand for any value.
-    """
+    """Values behind the names ``extra`` of a ring; ``made`` are the auxiliary ones, in the order of their definitions
+    (None: an unknown, which stays a variable), ``loose``: whether some of them stand for any value."""
 
     def __init__(self, ring: Ring, extra: Sequence[str], total: Total | None) -> None:
         self.ring, self.extra, self.total = ring, extra, total
@@ -183,10 +178,8 @@ class Auxiliaries:
 
 
 def settled(formula: Formula, values: Mapping[str, Auxiliary], place: Place) -> Formula:
-    """The comparison ``formula``, which says where its terms are defined, without the names of ``values``.
-
-    ``values`` are in the order of their definitions, which may use earlier ones.
-    """
+    """The comparison ``formula``, which says where its terms are defined, without the names of ``values``, which are in
+    the order of their definitions."""
     needed = set(formula.free)
     for value in reversed(list(values.values())):
         if value.name in needed:

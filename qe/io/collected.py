@@ -1,8 +1,5 @@
-"""Sums and products of names and numbers, collected while they are read: short polynomials in place of trees.
-
-Only what is surely small is collected, so that no limit of ``qe.io.terms`` can be passed here. Everything else stays a
-tree, which ``qe.io.valuation`` works out, or refuses where it is too large.
-"""
+"""Sums and products of names and numbers, collected while they are read: short polynomials in place of trees. Only what
+is surely small is collected; everything else stays a tree, which ``qe.io.valuation`` works out."""
 
 from __future__ import annotations
 

@@ -164,10 +164,8 @@ class Statement(Connected):
 
 
 def variables(names: object) -> Any:
-    """Variables with these names (``"x y"``, ``"x, y"`` or a list) as a tuple; one alone comes without it.
-
-    Typed as ``Any``, since what unpacks it says how many there are.
-    """
+    """Variables with these names (``"x y"``, ``"x, y"`` or a list) as a tuple; one alone comes without it. Typed as
+    ``Any``, since what unpacks it says how many there are."""
     listed = arguments.names(names, "variables")
     if not listed:
         raise InputError("variables: at least one name expected")

@@ -1,7 +1,5 @@
-"""All formats by name: ``read(text, "smtlib")``, ``write(formula, "latex")``. Modules are loaded when first used.
-
-This is the only list of formats: a format is one line of ``Format`` and the module of its name next to this one.
-"""
+"""All formats by name: ``read(text, "smtlib")``, ``write(formula, "latex")``. A format is one line of ``Format`` and
+the module of its name next to this one, which is loaded when first used."""
 
 from __future__ import annotations
 
@@ -21,10 +19,8 @@ if TYPE_CHECKING:
 
 
 class Format(Enum):
-    """The formats; ``value`` is the name used on the command line and the name of the module.
-
-    ``endings``: of files in the format. ``readable``: whether the module has a reader; a writer all have.
-    """
+    """The formats; ``value`` is the name used on the command line and the name of the module. ``endings``: of files in
+    the format. ``readable``: whether the module has a reader; a writer all have."""
 
     TEXT = "text", (".qe", ".txt")
     SMTLIB = "smtlib", (".smt2", ".smt")
@@ -58,10 +54,7 @@ BY_ENDING = {ending: f for f in Format for ending in f.endings}
 def read(
     text: str, format: str | Format = Format.TEXT, *, source: str = "<text>", total_division: bool = False
 ) -> Formula:
-    """The formula that ``text`` means; ``total_division`` as ``qe.io.text.read`` has it.
-
-    Raises ``InputError`` (with line and column where the text is wrong).
-    """
+    """The formula that ``text`` means; ``total_division`` as ``qe.io.text.read`` has it. Raises ``InputError``."""
     from qe.formula.build import conj
 
     return conj(reversed(read_posed(text, format, source=source, total_division=total_division)))

@@ -59,10 +59,8 @@ def write(formula: Formula) -> str:
 
 
 def name(variable: str) -> str:
-    """A variable: ``x1`` and ``x_ij`` as x with an index, Greek letters by name, long words upright.
-
-    The index of ``x_1`` looks like that of ``x1``, but is another text.
-    """
+    """A variable: ``x1`` and ``x_ij`` as x with an index, Greek letters by name, long words upright. The index of
+    ``x_1`` looks like that of ``x1``, but is another text."""
     if variable == PI:
         return r"\pi"
     parts = None if variable in WORDS_FOR_PI else _NAME.fullmatch(variable)

@@ -15,36 +15,37 @@ from qe.io.text_lexer import OPERAND_ENDS, State
 from qe.io.tokens import SIGNS, Token, kinds
 from qe.spelling import NUMERALS, PI, QUOTED, visible
 
-_COMMANDS = {
-    **dict.fromkeys(("land", "wedge"), ("AND", "and")),
-    **dict.fromkeys(("lor", "vee"), ("OR", "or")),
-    **dict.fromkeys(("lnot", "neg"), ("NOT", "not")),
-    **dict.fromkeys(("implies", "Rightarrow", "rightarrow", "to", "Longrightarrow"), ("IMPLIES", "->")),
-    **dict.fromkeys(("iff", "Leftrightarrow", "leftrightarrow", "Longleftrightarrow"), ("IFF", "<->")),
-    **dict.fromkeys(("le", "leq", "leqslant"), ("RELATION", "<=")),
-    **dict.fromkeys(("ge", "geq", "geqslant"), ("RELATION", ">=")),
-    **dict.fromkeys(("ne", "neq"), ("RELATION", "/=")),
-    **dict.fromkeys(("cdot", "times"), ("TIMES", "*")),
-    **dict.fromkeys(("{", "lbrace"), ("BEGIN", "{")),
-    **dict.fromkeys(("}", "rbrace"), ("END", "}")),
-    **dict.fromkeys(("colon",), ("DOT", ".")),
-    "lt": ("RELATION", "<"),
-    "gt": ("RELATION", ">"),
-    "exists": ("QUANTIFIER", "ex"),
-    "forall": ("QUANTIFIER", "all"),
-    "in": ("IN", "in"),
-    "notin": ("NOTIN", "∉"),
-    "cup": ("UNION", "∪"),
-    "cap": ("COMMON", "∩"),
-    "setminus": ("WITHOUT", "∖"),
-    "infty": ("INFINITY", "oo"),
-    "top": ("TRUE", "true"),
-    "bot": ("FALSE", "false"),
-    "div": ("OVER", "/"),
-    "lvert": ("OPENBAR", "|"),
-    "rvert": ("CLOSEBAR", "|"),
-    "vert": ("BAR", "|"),
-}
+_TABLE = kinds(r"""
+AND:and land wedge
+OR:or lor vee
+NOT:not lnot neg
+IMPLIES:-> implies Rightarrow rightarrow to Longrightarrow
+IFF:<-> iff Leftrightarrow leftrightarrow Longleftrightarrow
+RELATION:<= le leq leqslant
+RELATION:>= ge geq geqslant
+RELATION:/= ne neq
+RELATION:< lt
+RELATION:> gt
+TIMES:* cdot times
+OVER:/ div
+BEGIN:{ { lbrace
+END:} } rbrace
+DOT:. colon
+QUANTIFIER:ex exists
+QUANTIFIER:all forall
+IN:in in
+NOTIN:∉ notin
+UNION:∪ cup
+COMMON:∩ cap
+WITHOUT:∖ setminus
+INFINITY:oo infty
+TRUE:true top
+FALSE:false bot
+OPENBAR:| lvert
+CLOSEBAR:| rvert
+BAR:| vert
+""")
+_COMMANDS = {name: (token.partition(":")[0], token.partition(":")[2]) for name, token in _TABLE.items()}
 _SIGNS = {**SIGNS, **kinds("RELATION = < >\nLEFT [\nRIGHT ]\nDOT . :\nBAR |")}
 _NEGATED = {"=": "/=", "<": ">=", ">": "<=", "\\le": ">", "\\leq": ">", "\\ge": "<", "\\geq": "<", "\\in": "∉"}
 _SPACES = frozenset((",", ";", ":", "!", " ", "quad", "qquad", "thinspace"))

@@ -15,10 +15,8 @@ _FORBIDDEN = re.compile(r"[|\\\ud800-\udfff]")
 
 
 def check_name(name: object) -> str:
-    """The name, if every format can carry it: not empty, no bar, no backslash, no half of a surrogate pair.
-
-    Raises ``InputError`` for anything else.
-    """
+    """The name, if every format can carry it: not empty, no bar, no backslash, no half of a surrogate pair. Raises
+    ``InputError`` for anything else."""
     if not isinstance(name, str):
         raise wrong("name", "the name of a variable", name)
     if not name or _FORBIDDEN.search(name):
@@ -48,11 +46,8 @@ def bound_names(variables: object) -> tuple[str, ...]:
 def renaming(
     formula: Formula, *, keeps: Callable[[str], bool], spell: Callable[[str], str], filler: str = "_"
 ) -> dict[str, str]:
-    """An injective map from the names of a formula to names that a format allows.
-
-    A name that ``keeps`` accepts stays. Any other is rewritten by ``spell`` and then given as many ``filler`` letters
-    as it takes to be allowed and new, so two different variables never become one.
-    """
+    """An injective map from the names of a formula to names that a format allows: those that it ``keeps``, and others
+    as ``spell`` writes them, with as many ``filler`` letters as it takes to be allowed and new."""
     names = names_in(formula)
     new_names = {name: name for name in names if keeps(name)}
     used = set(new_names)

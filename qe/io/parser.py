@@ -20,7 +20,7 @@ from qe.formula.quantity import MOST
 from qe.formula.relation import Relation
 from qe.io import surface as s
 from qe.io.terms import TermError, decimal
-from qe.io.text_errors import Failing, SyntaxFailure, unexpected_token, unknown_function
+from qe.io.text_errors import Failing, SyntaxFailure, not_understood, unexpected_token, unknown_function
 from qe.io.tokens import END, Token
 
 RELATIONS = {
@@ -108,10 +108,8 @@ class Infix(NamedTuple):
 
 
 class Prefix(NamedTuple):
-    """What may start an operand of these sorts behind operators up to the level ``highest``.
-
-    ``read`` takes its tokens and gives the operand, or None where it waits on the stack for more.
-    """
+    """What may start an operand of these sorts behind operators up to the level ``highest``: ``read`` takes its tokens
+    and gives the operand, or None where it waits on the stack for more."""
 
     sorts: int
     highest: int
@@ -130,10 +128,7 @@ class Waiting(NamedTuple):
 
 
 class Parser(ABC):
-    """Reads one text; a format is a subclass with its tokens and its tables.
-
-    ``token`` is the next token. Failures are raised as ``SyntaxFailure``.
-    """
+    """Reads one text; a format is a subclass with its tokens and its tables. ``token``: the next one."""
 
     calls: ClassVar[dict[str, tuple[str, ...]]] = {"NAME": ("OPEN", "LEFT")}
     """The brackets that make a call of the token in front of them."""
@@ -316,7 +311,7 @@ def parsed(parser: type[Parser], text: str, fail: Failing, wants: int = FORMULA)
     try:
         return parser(text).whole(wants)
     except SyntaxFailure as error:
-        raise fail(error.message, error.at, error.expected) from None
+        raise not_understood(fail(error.message, error.at, error.expected), text) from None
 
 
 def _only(value: Any) -> Any:

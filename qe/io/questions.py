@@ -79,6 +79,10 @@ _MEETING = re.compile(
     rf"(?:is |does |do )?({F}) (?:(?:does|do) (not) )?(?:is |are )?(meet|touch|tangent to) ({F})"
     rf"(?: (?:at|in) ({COUNT})(?: distinct)* points)?"
 )
+_ABOVE = re.compile(
+    rf"(?:(?:whole|entire|all)(?: of)? )?({F}) (?:is|lie)(?: (?:entirely|completely|wholly|strictly|always))*"
+    rf" (above|below) ({F})"
+)
 _ALWAYS = re.compile(rf"(is )?({F}) (?:(is|be) )?(always )?({SIGN})(?: (for (?:all|every|any) .*))?")
 _CALL = re.compile(
     r"(?:\w+(?:\.|:-))*(?:SolveTools\[)?((?:n|f|lin|nonlin)?solve\w*|reduce_\w+|prove|bool|qepcad|QuantifierElimination|SemiAlgebraic"
@@ -146,7 +150,7 @@ def _read(said: Sentence, known: str) -> Question | None:
         if len(others) != 1:
             raise InputError(f"{unnamed[0]}: the name of a variable expected behind it, as in for all real values of x")
         rest = f"{rest[: unnamed.start()]}for all {others.pop()}"
-    forms = (_separated, _counted, _meeting, _always)
+    forms = (_separated, _counted, _meeting, _above, _always)
     every = _EVERY.fullmatch(rest) if begins and begins["proved"] else None
     claimed = (every[2] or every[3]) if every else rest
     names = tuple(said.names(every[1] or every[4])) if every else names
@@ -372,6 +376,17 @@ def _tangent(y: str, value: str, curve: str, x: str) -> str | None:
     if poly is None or x not in poly.ring.index:
         return None
     return f"ex {x}. {equation} and {atom(poly.derivative(poly.ring.index[x]), Relation.EQ)}"
+
+
+def _above(said: Sentence, text: str, sought: tuple[str, ...]) -> str | None:
+    """``the curve y = f lies above the curve y = g``; None for another text."""
+    if (above := _ABOVE.fullmatch(text)) is None:
+        return None
+    (y, f), (z, g) = (said[above[k]].partition("=")[::2] for k in (1, 3))
+    solved = _equation(f"({f}) - ({g})", (*sought, "y")) if y.strip() == z.strip() == "y" else None
+    if solved is None or "y" in _names(f"{f} - {g}"):
+        return None
+    return f"all {solved[1]}. {f.strip()} {'>' if above[2] == 'above' else '<'} {g.strip()}"
 
 
 def _place(said: Sentence, name: str, place: list[str | None]) -> str:

@@ -16,8 +16,10 @@ from qe.spelling import QUOTED, is_product, unquoted
 
 LEAST = "minimum minimize minimise minimal minimized minimised min least smallest lowest small"
 GREATEST = "maximum maximize maximise maximal maximized maximised max greatest largest highest large"
-_CURVES = "curve circle parabola ellipse hyperbola graph"
-_NOUNS = "equation equations polynomial function expression quantity inequality inequalities cubic line " + _CURVES
+_NOUNS = (
+    "equation equations polynomial function expression quantity inequality inequalities cubic line curve circle"
+    " parabola ellipse hyperbola graph"
+)
 VOCABULARY = kinds("""
 find find determine calculate
 prove prove show verify
@@ -66,7 +68,7 @@ _TYPED: tuple[tuple[str, str | Callable[[re.Match[str]], str]], ...] = (
     (r"\b([Nn])on[-\s]+(?=negative|zero|positive)", r"\1on"),
     (r"\bs\.\s?t\.", "such that"),
     (r"\+ve\b", "positive"),
-    (r"\b([xy])\s*-\s*axis\b", r"\1axis"),
+    (r"\bx\s*-\s*axis\b", "y = 0"),
     (r"(?i)\bprove\s*/\s*disprove\b", "prove"),
     (r",?\s*\(\s*\w+\s*(?:∈|\bin\b)\s*(?:R|ℝ)\s*\)", ""),
     (r"[^\S\n]{2,}\(\d\)[^\S\n]*$", ""),  # the number of an equation
@@ -100,15 +102,9 @@ _MEANT = re.compile(
     rf"|\bit(?= has| meet| touch| lie| is always)|(?:(?<=such that )|(?<=for which ))(?=(?:{COUNT}) roots?\b)"
     rf"|(?:{_NOUN.replace('noun', 'called')} )?(?P<name>{F})"
 )
-_FUNCTION = re.compile(r"([fghFP])\s*\(\s*(\w(?:\s*,\s*\w)*)\s*\)\s*=(.*)", re.DOTALL)
+_FUNCTION = re.compile(r"([fgFP])\s*\(\s*(\w(?:\s*,\s*\w)*)\s*\)\s*=(.*)", re.DOTALL)
 _WHERE = re.compile(
     rf" ?[.,]? (?:where|with|note :?|here) ({F} (?:is|are)(?: (?:{SIGN}|distinct|constant|numbers))+)(?: ,)?"
-)
-_ENTIRELY = r"(?: (?:entirely|completely|wholly|strictly|always))*"
-_AXIS = re.compile(
-    rf"(?:(?:whole|entire|all)(?: of)? )?({F})"
-    rf"(?:(?: (?:is|lie))?{_ENTIRELY} (above|below)|((?: (?:does|do) not)? (?:meet|touch)))"
-    rf" xaxis(?: (?:at|in) ({COUNT})(?: distinct)? points)?"
 )
 _CONDITION = rf"\b(?:{SIGN}|not|no|all|any|every|assume|suppose|such|that|distinct|if|when|triangle)\b"
 _LEAD = rf"(?:in ,|(?:by|using|hence|thus|therefore|please)\b)(?:(?!{_CONDITION})[^§.])*?"
@@ -147,10 +143,6 @@ _RULES = (
         rf"^(?:for )?({_FOUND}) [.,] find {_VALUES}({F}) such that (?:it |{THINGS})?(?=is|has)",
         r"find \2 such that \1 ",
     ),
-    (
-        rf"^for ({_FOUND}) , find {_VALUES}({F}) such that ({COUNT}) (roots?)\b",
-        r"find \2 such that \1 has \3 \4 that",
-    ),
     (rf"(?:({COUNT}) )?(?:of )?\b(roots?) of ({_FOUND}) (?:is|are|(?=lie))", r"\3 has \1 \2 that are "),
     ("that are +(?=lie|in|between|greater|less)", "that "),
     (r" has (?:(?:all|both) roots|only roots|all its roots)(?: real)?$", " has both roots"),
@@ -168,15 +160,9 @@ _RULES = (
         rf"^(?:(?:given|if|let|suppose|for|know)(?: that)? )?(.+?) ?[.,]? (?:then )?((?:find|what is) {BEST}.*)$",
         r"\2 under \1",
     ),
-    (rf"\bof expression for (.+?) :? ?({F})$", r"of \2 for \1"),
     (r"^prove (?:that )?for (?!all|any|every|some)(.+?) ,? ?(?:we has|it holds)(?: that)? ", r"prove if \1 then "),
 )
 """What is said for short in place of what people say, in this order."""
-
-
-def _kind(noun: str | None) -> str:
-    """Of a line, of a curve, or of what is said to be equations and functions alike."""
-    return "line" if noun == "line" else "curve" if noun in _CURVES.split() else "equation"
 
 
 LIST = re.compile(rf"{LISTED}(?:\s*,\s*{LISTED})*")
@@ -221,38 +207,30 @@ class Sentence:
                 self.words = f"{self.words[:at]}{self.put(f'{left}, {right}')}{self.words[two.end() :]}"
         self.words = _OF_TWO.sub(lambda two: self.put(f"({self.joined(two[1], two[2])})"), self.words)
         self.words = _WHERE.sub(lambda where: self.where.append(where[1]) or "", self.words).strip()  # type: ignore[func-returns-value]
-        self.words = _AXIS.sub(self._at_axis, self._with_meanings(self.words))
+        self.words = self._with_meanings(self.words)
         for pattern, said in _RULES:
             self.words = re.sub(" +", " ", re.sub(pattern, said, self.words)).strip()
 
     def _with_meanings(self, words: str) -> str:
-        """The words with what a noun or a name was defined to mean in its place, without the definitions; as they are
-        where nothing is defined, or what is meant is not clear."""
-        meanings: list[tuple[str, str, str]] = []
+        """The words with what a name or a noun was defined to mean in its place, without the definitions; as they are
+        where nothing is defined, one is not used, or what is meant is not clear."""
+        meanings: list[tuple[str, bool, str]] = []
         unused: set[str] = set()
 
         def defined(at: re.Match[str]) -> str:
-            parts = at.groupdict()
-            name, means = parts.get("name"), (parts.get("lead") or "") + at["means"]
-            meanings.append((_kind(at["noun"]), self[name] if name else "", means))
-            if at.re is not _NAMED:
-                unused.add(means)
-            return f"{at['noun']} {at['means']}" if at.re is _NAMED else ""
+            parts = {"name": None, "lead": None, **at.groupdict()}
+            means = f"{parts['lead'] or ''}{at['means']}"
+            meanings.append((self[parts["name"] or ""], at["noun"] == "line", means))
+            unused.update(() if at.re is _NAMED else (means,))
+            return f"{at['noun']} {means}" if at.re is _NAMED else ""
 
         def meant(at: re.Match[str]) -> str:
-            if at["name"]:
-                those = {means for _, name, means in meanings if name and name == self[at["name"]]}
-            else:
-                kind = _kind(at["noun"])
-                those = {means for other, _, means in meanings if kind == other}
-                if not those and len(meanings) == 1 and {kind, meanings[0][0]} != {"line", "curve"}:
-                    those = {meanings[0][2]}
+            name, is_line = self[at["name"] or ""], at["noun"] == "line"
+            those = {m for n, line, m in meanings if (n == name if name else line is is_line or not at["noun"])}
             if len(those) != 1:
                 return at[0]
-            means = those.pop()
-            unused.discard(means)
-            lead = "quadratic " if at["lead"] else ""
-            return lead + means.removeprefix(lead) + ("" if at[0] else " has ")
+            unused.discard(means := those.pop())
+            return (at["lead"] or "") + means.removeprefix(at["lead"] or "") + ("" if at[0] else " has ")
 
         words = shorter = _NAMED.sub(defined, words)
         for means, _, _ in self.functions.values():
@@ -262,10 +240,9 @@ class Sentence:
             shorter = re.sub(whole, defined, shorter)
         behind = re.fullmatch(rf"(.*) [.:] ({F})", shorter)
         if behind and not meanings and sum(at["noun"] is not None for at in _MEANT.finditer(behind[1])) == 1:
-            shorter, meanings = behind[1], [("equation", "", behind[2])]
+            shorter, meanings = behind[1], [("", False, behind[2])]
         replaced = _MEANT.sub(meant, shorter)
-        if self.is_applied:
-            unused -= {means for means, _, _ in self.functions.values()}
+        unused -= {means for means, _, _ in self.functions.values() if self.is_applied}
         return words if unused or (replaced == shorter and not self.is_applied) else replaced.strip()
 
     def _apply(self) -> None:
@@ -274,21 +251,8 @@ class Sentence:
             applied = re.compile(rf"(?<!\w){name}\s*\*?\s*\(\s*{names}\s*\)")
             for at, formula in enumerate(self.formulas):
                 if f"§{at}" != means:
-                    parts = applied.split(formula)
-                    self.formulas[at] = body if formula == name else f"({body})".join(parts)
+                    self.formulas[at] = body if formula == name else f"({body})".join(applied.split(formula))
                     self.is_applied |= self.formulas[at] != formula
-
-    def _at_axis(self, at: re.Match[str]) -> str:
-        """What is said of a curve y = f and the x-axis, said of f; as it is for another curve."""
-        y, _, value = self[at[1]].partition("=")
-        if y.strip() != "y" or not value or re.search(r"[<>=≤≥]|\by\b", value):
-            return at[0]
-        term = self.put(value)
-        if at[2]:
-            return f"{term} is always {'positive' if at[2] == 'above' else 'negative'}"
-        if "touch" in at[3]:
-            return at[0] if "not" in at[3] else f"{term} has double root"
-        return f"{term} has {'no roots' if 'not' in at[3] else f'{at[4]} roots' if at[4] else 'roots'}"
 
     def _is_formula(self, word: str) -> bool:
         """Whether a word can stand in a formula: a function, a product, a Greek letter."""
@@ -298,7 +262,7 @@ class Sentence:
         """A formula between two words, and the signs of punctuation around it."""
         before, inside, behind = re.fullmatch(r"([\s.,:;?]*)(.*?)([\s.,:;?]*)", text, re.DOTALL).groups()  # type: ignore[union-attr]
         marks = [[mark if mark in ",:" else "." for mark in part if mark in ".,:;?"] for part in (before, behind)]
-        inside = re.sub(r"^'(\w+)'$", r"\1", re.sub(r"\(\s*\w+\s*∈\s*(?:R|ℝ)\s*\)$", "", inside.replace("–", "-")))
+        inside = re.sub(r"^'(\w+)'$", r"\1", inside.replace("–", "-"))
         if inside and is_latex(inside):
             inside = as_text(inside)
         if (function := _FUNCTION.fullmatch(inside)) and function[1] not in self.functions:

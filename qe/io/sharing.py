@@ -85,9 +85,7 @@ def ordered(roots: Iterable[s.Part]) -> list[s.Part]:
 
 def refuse_long(parts: Sequence[s.Part]) -> None:
     """Raise ``Unable`` where equivalences nested in each other, and what is shared, would be far too much written out.
-
-    ``parts``: all that there are, each after those inside it. Terms count as one, since equal ones are worked out once.
-    """
+    ``parts``: all that there are, each after those inside it; terms count as one."""
     _refuse(_longest(parts), len(parts))
 
 
@@ -114,10 +112,8 @@ def _refuse(size: int, different: int) -> None:
 
 
 def named(nodes: Sequence[s.Node], shared: Sequence[s.Part], bound: Collection[str], make: Make) -> Named:
-    """The nodes, asserted together, with names for parts that would be written out many times; ``make`` makes a name.
-
-    ``bound``: the names that quantifiers bind; what contains one is left alone. So are small questions.
-    """
+    """The nodes, asserted together, with names that ``make`` makes for parts that would be written out many times; not
+    for what has a name that quantifiers bind (``bound``), nor in small questions."""
     parts = ordered(nodes)
     sizes = _sizes(parts)
     if sum(sizes[id(node)][0] for node in nodes) <= max(LONG, 2 * len(parts)):
@@ -232,10 +228,7 @@ class _Naming:
 
 
 def chain(term: s.Term, known: Container[int] = ()) -> tuple[s.Term, list[s.Product | s.Quotient]]:
-    """``a*b/c*…`` as a and the steps that follow it: the chain may be long, so nothing recurses along it.
-
-    It starts at a part whose identity is ``known``, if there is one.
-    """
+    """``a*b/c*…`` as a (or a part whose identity is ``known``) and the steps that follow it, without recursion."""
     links: list[s.Product | s.Quotient] = []
     while isinstance(term, s.Product | s.Quotient) and id(term) not in known:
         links.append(term)
@@ -244,10 +237,8 @@ def chain(term: s.Term, known: Container[int] = ()) -> tuple[s.Term, list[s.Prod
 
 
 class Names:
-    """Collects the names of a tree, free before bound, and refuses trees that are nested too deeply.
-
-    ``special`` counts the parts that may need a name of their own.
-    """
+    """The names of a tree, free before bound; trees that are nested too deeply are refused. ``special`` counts the
+    parts that may need a name of their own."""
 
     def __init__(self, fail: s.Fail, meet: s.Meet) -> None:
         self.fail, self.meet = fail, meet

@@ -1,11 +1,8 @@
 """SMT-LIB 2 scripts of the logics QF_NRA and NRA (``docs/formats.md``): what they assert, and formulas as scripts.
 
-Commands that only ask for output are passed over, ``exit`` ends the script, and what would change the assertions later
-(``push``, ``pop``, an ``assert`` after ``check-sat``) is refused. A Boolean constant p becomes a real variable p with
-the atom ``p > 0``, which is equisatisfiable, also under quantifiers, because both cases of p have a real value.
-
-Formulas of z3 and pySMT, which are imported when something of theirs is given, are read as what their own printers
-write.
+Commands that only ask for output are passed over; what would change the assertions later is refused. A Boolean constant
+p becomes a real variable p with the atom ``p > 0``, which is equisatisfiable, also under quantifiers, because both
+cases of p have a real value. Formulas of z3 and pySMT are read as what their own printers write.
 """
 
 from __future__ import annotations
@@ -86,11 +83,8 @@ def _depth(formula: Formula) -> int:
 
 
 def write(formula: Formula) -> str:
-    """A script that asserts ``formula``.
-
-    Names that SMT-LIB keeps for itself or cannot write get ``v_`` in front; others are quoted where needed. Raises
-    ``InputError`` for a root atom, which SMT-LIB cannot express.
-    """
+    """A script that asserts ``formula``. Names that SMT-LIB keeps for itself or cannot write get ``v_`` in front.
+    Raises ``InputError`` for a root atom, which SMT-LIB cannot express."""
     names = _allowed_names(formula)
     lines = [f"(set-logic {'QF_NRA' if formula.is_quantifier_free else 'NRA'})"]
     lines += [f"(declare-const {symbol(names[name])} Real)" for name in formula.free]

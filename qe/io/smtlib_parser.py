@@ -49,11 +49,8 @@ def place(expression: Expression) -> int:
 
 
 def parse(text: str, fail: Fail, *, placed: bool = True) -> list[Expression]:
-    """The expressions of a script; raises what ``fail`` makes.
-
-    Unless they are ``placed``, they are mere strings and lists, which takes a third of the time, and errors have no
-    offset.
-    """
+    """The expressions of a script; raises what ``fail`` makes. Unless they are ``placed``, they are mere strings and
+    lists, which takes a third of the time, and errors have no offset."""
     items: list[Expression] = []
     outside: list[list[Expression]] = []
     for word in _placed_words(text, fail) if placed else _words(text, fail):

@@ -93,10 +93,8 @@ class Script(Terms):
         return True
 
     def keep(self, command: list[Expression]) -> bool:
-        """What is left of a command that was not read; whether all that it asserts is kept.
-
-        A declared symbol is known as one whose values are not known, and in an assertion such values get names.
-        """
+        """What is left of a command that was not read (a declared symbol has some value, and so has a term that is not
+        understood); whether all that it asserts is kept."""
         match command:
             case ["declare-const" | "declare-fun", str(symbol), *_, sort] if symbol not in self.globals:
                 if sort in ("Real", "Int", "Bool"):
@@ -158,11 +156,8 @@ class Script(Terms):
 
     # --- questions -------------------------------------------------------------------------------------------
     def formula_of(self, nodes: Sequence[s.Node], total: Total) -> Formula:
-        """The conjunction of the nodes; ``total`` is told about functions outside their domains.
-
-        What would be written out many times has names, which are quantified: a check binds them with the others.
-        Raises ``Unable`` where it is much too long all the same.
-        """
+        """The conjunction of the nodes, with names, which are quantified, for what would be written out many times;
+        ``total`` is told about functions outside their domains. Raises ``Unable`` where it is much too long."""
         from qe.formula.build import exists
         from qe.io.sharing import named
 

@@ -18,10 +18,8 @@ from qe.io.terms import Value
 
 
 def substitute(formula: Formula, values: Mapping[str, s.Term]) -> Formula:
-    """The formula with these terms in the place of free variables, all at once.
-
-    Bound variables are renamed where a term has their names. Where a term has no value the result is false.
-    """
+    """The formula with these terms in the place of free variables, all at once; bound variables are renamed where a
+    term has their names. Where a term has no value the result is false."""
     if any(not isinstance(a, Atom) and a.variable in values for a in atoms(formula)):
         formula = without_root_atoms(formula)
     values = {name: term for name, term in values.items() if name in formula.free}

@@ -1,7 +1,5 @@
-"""What readers build before names are resolved: the one language of terms and formulas, as written, with positions.
-
-All doors (text, SymPy, SMT-LIB, ...) build such trees, and ``qe.io.lowering`` says what they mean: it turns them into
-formulas over polynomials.
+"""What readers build before names are resolved: the one language of terms and formulas, as written, with positions;
+``qe.io.lowering`` says what they mean.
 
 ``at`` is an offset into the text (-1: unknown). Lists are filled while parsing and not changed later.
 """

@@ -1,9 +1,8 @@
 """SymPy Booleans in and out.
 
-A ``Float`` is read as the decimal number that it prints: ``0.1*x`` means x/10, as in text. SymPy has no quantifiers:
-``Exists`` and ``ForAll`` here wrap an expression and can be combined with ``& | ~ >>`` among themselves and with SymPy
-expressions. A symbol may be assumed real, and to have a sign, which becomes a condition; assumptions that say more
-(integer) would be lost and are refused.
+A ``Float`` is read as the decimal number that it prints. SymPy has no quantifiers: ``Exists`` and ``ForAll`` here wrap
+an expression and can be combined with ``& | ~ >>``. A symbol may be assumed real, and to have a sign, which becomes a
+condition; assumptions that say more (integer) are refused.
 """
 
 from __future__ import annotations
@@ -105,12 +104,9 @@ def _failing(whole: object) -> s.Fail:
 
 
 def from_sympy(expression: object) -> Formula:
-    """The formula of a SymPy Boolean, a wrapped or a finished formula; signs that symbols are assumed to have are part
-    of it.
-
-    Raises ``InputError`` for what is not a Boolean combination of relations between terms, a Python truth value
-    among them: it is what ``x**2 == b`` makes.
-    """
+    """The formula of a SymPy Boolean, a wrapped or a finished formula, with the signs that symbols are assumed to have.
+    Raises ``InputError`` for a Python truth value, which is what ``x**2 == b`` makes, and whatever else is no
+    Boolean."""
     raw, known = posed_from_sympy(expression)
     return conj((known, raw))
 
@@ -259,10 +255,7 @@ def said(text: str, *, term: bool = False) -> Any:
 
 
 def to_sympy(formula: Formula, *, symbols: Mapping[str, Any] | None = None) -> Any:
-    """The SymPy Boolean of a quantifier-free formula, as it is printed; ``subs`` with numbers for all variables decides
-    it.
-
-    ``symbols`` gives the symbols to use for names (default: ``Symbol(name)``). SymPy may simplify as it builds. Raises
-    ``InputError`` for quantifiers, and for roots of polynomials with parameters.
-    """
+    """The SymPy Boolean of a quantifier-free formula, as it is printed; ``symbols`` gives the symbols to use for names
+    (default: ``Symbol(name)``). SymPy may simplify as it builds. Raises ``InputError`` for quantifiers, and for roots
+    of polynomials with parameters."""
     return said(str(formula)).xreplace({sp.Symbol(name): symbol for name, symbol in (symbols or {}).items()})

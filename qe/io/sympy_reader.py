@@ -233,10 +233,8 @@ def number_to_sympy(number: RealAlgebraic) -> Any:
 
 
 def number_from_sympy(number: object) -> RealAlgebraic | None:
-    """The real algebraic number that a SymPy expression without symbols is; None for any other object.
-
-    It is the root of its minimal polynomial that its decimal digits tell from the others.
-    """
+    """The real algebraic number that a SymPy expression without symbols is, the root of its minimal polynomial that its
+    digits tell from the others; None for any other object."""
     if not isinstance(number, sp.Expr) or not number.is_number or number.is_real is not True:
         return None
     try:

@@ -1,8 +1,7 @@
 """Exact arithmetic on the terms that readers meet: polynomials over Q, guarded against blow-up.
 
-A reader must never hand FLINT an expansion that does not fit into memory (FLINT would end the process),
-so every product and power is bounded before it is computed. The functions raise ``TermError`` without a
-position; readers that know one turn it into a ``ParseError``.
+FLINT ends the process where an expansion does not fit into memory, so every product and power is bounded before it is
+computed. Errors are ``TermError`` without a position; readers know one.
 """
 
 from __future__ import annotations

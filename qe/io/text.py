@@ -1,8 +1,5 @@
 """The text syntax: ``ex x, y. all z. x^2 + 2*x*y >= 0 and not z = 0 or p -> q``; ``docs/formats.md`` has all of it.
-
-What a whole text is, beyond the one formula or term that the parser reads: questions in words, definitions behind
-``where``, problems of optimisation, terms alone.
-"""
+What a whole text is: questions in words, definitions behind ``where``, problems of optimisation, terms alone."""
 
 from __future__ import annotations
 
@@ -19,7 +16,7 @@ from qe.io.lowering import lower, lower_term
 from qe.io.parser import TERM, parsed
 from qe.io.substitution import over_one_ring
 from qe.io.surface import FUNCTIONS, Comparison, Every, Meet, Name, Node, Number, Quantification, Term
-from qe.io.text_errors import Failing, SyntaxFailure, not_understood
+from qe.io.text_errors import Failing, SyntaxFailure
 from qe.io.text_lexer import COMMANDS, KEYWORDS
 from qe.io.text_parser import is_latex, parser_of, products
 from qe.io.text_words import Question, in_words, split
@@ -59,10 +56,7 @@ def read_posed(
     """As ``read``; over the same ring what it assumes, c of ``Assuming[c, f]`` and ``Refine[f, c]``, TRUE without."""
     question = _question(_quoting(text, known))
     texts = [_written_out(question.formula), *([question.assumed] if question.assumed else [])]
-    try:
-        formula, *assumed = over_one_ring(*(_lowered(part, source, known, total_division) for part in texts))
-    except ParseError as error:
-        raise not_understood(text, source, error) from None
+    formula, *assumed = over_one_ring(*(_lowered(part, source, known, total_division) for part in texts))
     return formula, conj(assumed)
 
 
@@ -133,10 +127,7 @@ def read_graph(name: str, text: str) -> Formula:
 
 def read_term(text: str) -> Term:
     """The term that ``text`` is, as a surface tree. Names and errors as for ``read``."""
-    try:
-        return cast(Term, parsed(parser_of(text), text, Failing(text, "<text>"), TERM))
-    except ParseError as error:
-        raise not_understood(text, "<text>", error) from None
+    return cast(Term, parsed(parser_of(text), text, Failing(text, "<text>"), TERM))
 
 
 def read_node(text: str) -> Node:

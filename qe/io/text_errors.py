@@ -19,8 +19,7 @@ _CHARACTERS = {
     "\\": "'or' is written or, 'and' is written and",
     **dict.fromkeys("ⁱⁿ", "an exponent is a rational number, without variables"),
 }
-_WORDS_OF_SENTENCES = re.compile(r"(?<![\\\w`.$({])[a-z]{2,}(?![\w(`\]}=])")
-_NO_WORDS = {*KEYWORDS, *("sqrt", "abs", "max", "min")}
+_SAID = re.compile(r"(?<![\\\w`.$({])[a-z]{2,}(?![\w(`\]}=])")
 _SHOWN = {
     "RELATION": "a relation (= /= < <= > >=)",
     "CLOSE": "')'",
@@ -56,16 +55,15 @@ def position(text: str, at: int) -> tuple[int, int]:
     return text.count("\n", 0, at) + 1, at - text.rfind("\n", 0, at)
 
 
-def not_understood(text: str, source: str, error: ParseError) -> ParseError:
-    """The error of a text that cannot be read, for a question in words as a whole: what is behind its first words is no
-    formula, so their places say little."""
-    words = [word for word in _WORDS_OF_SENTENCES.findall(text) if word not in _NO_WORDS]
-    if len(words) < 5 or "[" in text or ":=" in text:
+def not_understood(error: ParseError, text: str) -> ParseError:
+    """The error of a text that cannot be read; of a question in words as a whole, where a place alone says little."""
+    if len(set(_SAID.findall(text)).difference(KEYWORDS)) < 5 or "[" in text or ":=" in text:
         return error
     hint = "ask in one sentence, as in: for which k does x^2 + k*x + 1 = 0 have two roots"
     if re.search(r"(?i)\b(?:least|minim|smallest|maxim|greatest|largest)", text):
         hint = "ask qe minimize in one sentence, as in: the least value of x + y subject to x*y = 1 and x > 0"
-    return ParseError(f"the words of this question are not understood, so nothing of it is read; {hint}", source=source)
+    message = f"the words of this question are not understood, so nothing of it is read; {hint}"
+    return ParseError(message, source=error.source)
 
 
 def unknown_function(text: str, name: str, at: int) -> SyntaxFailure:

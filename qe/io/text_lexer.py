@@ -248,14 +248,11 @@ class _Bracket:
 
 
 class State:
-    """What stands before the next token: ``end`` is the offset where the last one ends.
-
-    ``header``: inside a ``quantifier``, before its body, which may follow a comma where ``spoken``; ``bounded``: a
-    condition stands behind the last of its variables; ``within``: the level of brackets at which the set ends that its
-    variables lie in; ``behind`` its formula; ``signed``: a comparison with zero that holds of them. ``brackets``: of
-    those that are open, from outside; ``closed``: whether the last one that ended held a term. ``is_read``: no
-    token is missing.
-    """
+    """What stands before the next token: ``end`` is the offset where the last one ends. ``header``: inside a
+    ``quantifier``, before its body, which may follow a comma where ``spoken``; ``bounded``: a condition stands behind
+    the last of its variables; ``within``: the level of brackets at which the set ends that they lie in; ``behind`` its
+    formula; ``signed``: a comparison with zero that holds of them. ``brackets``: of those that are open; ``closed``:
+    whether the last one that ended held a term. ``is_read``: no token is missing."""
 
     def __init__(self, text: str) -> None:
         self.text, self.end = text, 0

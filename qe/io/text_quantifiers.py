@@ -1,8 +1,7 @@
 """Quantifiers of the text syntax and what they range over: sets, bounds, conditions. LaTeX has the same.
 
 Of a whole text: ``a, b, c > 0, a + b + c = 1`` says ``a > 0 and b > 0 and …``, and ``x^2 >= a for all x`` says ``all x.
-x^2 >= a``. What readers may take in two ways is refused: a comma next to ``or``, ``->`` and quantifiers, ``0 < a, b <
-1``.
+x^2 >= a``. What may be taken in two ways is refused: a comma next to ``or``, ``->``, quantifiers; ``0 < a, b < 1``.
 """
 
 from __future__ import annotations

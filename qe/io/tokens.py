@@ -39,10 +39,7 @@ class Token(NamedTuple):
 
 
 def matches(pattern: re.Pattern[str], text: str, at: int = 0) -> Iterator[tuple[str, str, int]]:
-    """Names of the groups of ``pattern`` that match one behind another, with text and offset, but for ``SPACE``.
-
-    Raises ``SyntaxFailure`` where nothing matches.
-    """
+    """Names of the groups of ``pattern`` that match one behind another, with text and offset, but for ``SPACE``."""
     while at < len(text):
         match = pattern.match(text, at)
         if match is None:

@@ -33,12 +33,9 @@ class Fill(Enum):
 
 @dataclass(slots=True)
 class Total:
-    """How functions are made total in one lowering, and what came of it.
-
-    ``bound``: the names that quantifiers bind. ``values``: function and arguments (the same
-    term in several cases) of every unknown, by its name.
-    ``weakened``: whether the formula says less than was written; ``unclear``: whether it may also say more.
-    """
+    """How functions are made total in one lowering, and what came of it. ``bound``: the names that quantifiers bind.
+    ``values``: function and arguments (the same term in several cases) of every unknown, by its name. ``weakened``:
+    whether the formula says less than was written; ``unclear``: whether it may also say more."""
 
     bound: frozenset[str] = frozenset()
     fill: Fill = Fill.ANY

@@ -20,10 +20,8 @@ from qe.io.total import Total
 
 
 class Valuation(Auxiliaries):
-    """The values of terms over one ring, whose names ``extra`` are for auxiliary values.
-
-    ``condition`` lowers the conditions of case distinctions.
-    """
+    """The values of terms over one ring, whose names ``extra`` are for auxiliary values. ``condition`` lowers the
+    conditions of case distinctions."""
 
     def __init__(
         self,

@@ -14,10 +14,10 @@ import pytest
 
 from bezier.cli import main as bezier_main
 from bezier.input import stored, toml_table
+from qe.arguments import content
 from qe.cli.app import main as qe_main
 from qe.cli.prompt import Session, is_open, run
 from qe.cli.shell import check_writable, write_file
-from qe.cli.source import read_text
 from qe.errors import InputError
 from tests.tables import each
 from tests.waiting import ending
@@ -127,9 +127,9 @@ def test_a_pipe_gets_no_codes() -> None:
 @pytest.mark.skipif(not Path("/dev/zero").exists(), reason="a file without an end is needed")
 def test_a_file_without_an_end_is_refused(monkeypatch: pytest.MonkeyPatch) -> None:
     """Such a file filled the memory until the system killed the process."""
-    monkeypatch.setattr("qe.cli.source.MOST_BYTES", 1000)
+    monkeypatch.setattr("qe.arguments.MOST_BYTES", 1000)
     with pytest.raises(InputError, match="/dev/zero: at most 1,000 bytes expected, more found"):
-        read_text(Path("/dev/zero"))
+        content(Path("/dev/zero"), "file")
     for read in (toml_table.read_text, stored.text):
         monkeypatch.setattr(f"{read.__module__}.MAX_BYTES", 1000)
         with pytest.raises(InputError, match=r"/dev/zero: expected .*at most 1000 bytes"):

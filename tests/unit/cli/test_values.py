@@ -14,10 +14,11 @@ from typer.main import get_command
 
 from bezier.cli.app import app as bezier_app
 from experiments.cli import app as experiments_app
+from qe.arguments import content
 from qe.cli.app import app
 from qe.cli.numbers import LONGEST, decimal, exact_and_decimal, shown
 from qe.cli.smt_values import written
-from qe.cli.source import Source, is_file, read_source, read_text
+from qe.cli.source import Source, is_file, read_source
 from qe.cli.values import take_leading_minus, take_plain_values
 from qe.errors import InputError
 from qe.exact.algebraic import RealAlgebraic
@@ -144,7 +145,7 @@ def test_other_files(tmp_path: Path) -> None:
     with pytest.raises(InputError, match="UTF-8 text expected"):
         read_source(str(path), None)
     with pytest.raises(InputError, match="cannot be read"):
-        read_text(tmp_path / "none")
+        content(tmp_path / "none", "file")
     assert not is_file(tmp_path) and not is_file(Path("x" * 5000)) and not is_file(Path("a\0b")) and is_file(path)
 
 
