@@ -21,7 +21,7 @@ from qe.io.scripts import last_command
 from qe.io.sentence import BEST, COUNT, KINDS, LEAST, LIST, PLACE, SHORT, SIGN, THINGS, VOCABULARY, F, Sentence
 from qe.io.surface import FUNCTIONS
 from qe.io.text_errors import Failing
-from qe.io.text_lexer import CALLS
+from qe.io.text_lexer import CALLS, SIMPLIFIERS
 from qe.io.text_parser import TextParser, lexed, products
 from qe.io.text_words import LISTED, NO_VARIABLES, SIGNED, Question, split
 from qe.spelling import KEYWORDS, WORD, unquoted
@@ -76,7 +76,7 @@ _SEPARATED = re.compile(
     rf"(?:quadratic )?({F}) has one root (?:is )?{PLACE} and (?:other|one)(?: root)?(?: is)? {PLACE}"
 )
 _MEETING = re.compile(
-    rf"(?:is |does |do )?({F}) (?:(?:does|do) (not) )?(?:is |are )?(meet|touch|tangent to) ({F})"
+    rf"(?:is |does |do )?({F}) (?:(?:does|do) (not) )?(?:is |are )?(meet|touch|tangent to)(?: with)? ({F})"
     rf"(?: (?:at|in) ({COUNT})(?: distinct)* points)?"
 )
 _ABOVE = re.compile(
@@ -90,7 +90,7 @@ _CALL = re.compile(
     re.DOTALL,
 )
 _PROVED = ("prove", "bool")
-_ASSUMES = re.compile(r"\s*(Assuming|(?:Full)?Simplify|Refine)\[(.*)\]\s*", re.DOTALL)
+_ASSUMES = re.compile(rf"\s*(Assuming|{'|'.join(SIMPLIFIERS)})\[(.*)\]\s*", re.DOTALL)
 _WITHIN = re.compile(r"(?:domain\s*=\s*)?Interval(?:\.([LR]?)open)?\(\s*([^,()]+),\s*([^,()]+)\)")
 """An interval of SymPy."""
 _DOMAIN = re.compile(r"(?:domain\s*=\s*)?S?\.?Reals|real\b|\w+\s*=\s*(?:True|False|real|Q\.real\(\w+\)|'[^']*')")

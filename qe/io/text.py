@@ -5,6 +5,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Collection, Container, Sequence
+from contextlib import suppress
 from fractions import Fraction
 from typing import cast
 
@@ -17,7 +18,7 @@ from qe.io.parser import TERM, parsed
 from qe.io.substitution import over_one_ring
 from qe.io.surface import FUNCTIONS, Comparison, Every, Meet, Name, Node, Number, Quantification, Term
 from qe.io.text_errors import Failing, SyntaxFailure
-from qe.io.text_lexer import COMMANDS, KEYWORDS
+from qe.io.text_lexer import KEYWORDS
 from qe.io.text_parser import is_latex, parser_of, products
 from qe.io.text_words import Question, in_words, split
 from qe.io.tokens import without_collections
@@ -25,9 +26,6 @@ from qe.io.total import Total
 from qe.spelling import CONSTANTS as CONSTANTS
 from qe.spelling import QUOTED, WORD, WORDS_FOR_PI, is_product
 
-_ASKED = re.compile(
-    rf"\s*(?:{'|'.join(COMMANDS)})\[.*,\s*(?!Reals)(\{{[^{{}}<>=]*\}}|{WORD})\s*(?:,\s*Reals\s*)?\]\s*", re.DOTALL
-)
 _WHERE = re.compile(r"(.*?)[,;]?\s+where\s+((?:[A-Z]\s*=[^=<>≤≥≠]+,\s*)*[A-Z]\s*=[^=<>≤≥≠]+)", re.DOTALL)
 _DEFINED = re.compile(r"([A-Z])\s*=\s*([^=]+?)\s*(?:,(?=\s*[A-Z]\s*=)|$)")
 _OPTIMUM = re.compile(
@@ -145,8 +143,12 @@ def outermost(text: str) -> tuple[bool, tuple[str, ...]] | None:
 def solved_for(text: str) -> tuple[str, ...] | None:
     """The variables of a command, x and y of ``Reduce[f, {x, y}, Reals]``, or of a question in words; None without."""
     question = _question(text)
-    asked = _ASKED.fullmatch(question.formula)
-    return question.names or None if asked is None else tuple(re.findall(WORD, asked[1]))
+    if not re.match(r"\s*[A-Z]\w+\[", question.formula):
+        return question.names or None
+    parser = parser_of(question.formula)(question.formula)
+    with suppress(SyntaxFailure):
+        parser.whole()
+    return parser.asked or question.names or None
 
 
 def optimum_asked(text: str) -> tuple[int, str, str, tuple[str, ...]] | None:

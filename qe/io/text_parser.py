@@ -35,7 +35,9 @@ _IN = p.Infix(p.RELATION, p.RELATION, p.TERM, p.TERM, p.FORMULA, lambda left, wi
 
 
 class TextParser(QuantifiedParser):
-    """Reads a text that is not LaTeX."""
+    """Reads a text that is not LaTeX. ``asked``: the variables of the command that the whole text is."""
+
+    asked: tuple[str, ...] = ()
 
     def lexed(self, text: str) -> Iterator[Token]:
         return text_lexer.tokens(text)
@@ -110,13 +112,14 @@ class TextParser(QuantifiedParser):
 
     def command(self) -> s.Node:
         """``Reduce[f, {x, y}, Reals]``: the formula."""
-        name = self.advance().text
+        _, name, at = self.advance()
+        listed: list[str] = []
         self.take("LEFT")
         node: s.Node = self.expression(p.FORMULA, "COMMA", "RIGHT")
         if self.skip("COMMA") and self.token.kind != "REALS":
             if name in text_lexer.SIMPLIFIERS:
                 raise SyntaxFailure(f"what {name} assumes is given with assuming= or --assuming", self.token.at)
-            self.names_or_name()
+            listed = self.names_or_name()
             if self.skip("COMMA"):
                 self.refuse_others()
         self.skip("REALS")
@@ -125,6 +128,7 @@ class TextParser(QuantifiedParser):
                 self.take("IMPLIES")
                 self.take("TRUE", "FALSE")
         self.take("RIGHT")
+        self.asked = tuple(listed) if self.token.kind == END and not self.text[:at].strip() else ()
         return node
 
     # --- lists and cases -------------------------------------------------------------------------------------

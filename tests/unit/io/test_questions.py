@@ -188,10 +188,13 @@ def test_what_is_read(typed: str, meant: str) -> None:
         ("find all m and n such that x^2 + m x + n > 0 for all x", ("m", "n")),
         ("Find all real numbers x, y satisfying x^2 + y^2 = 2, x + y = 2", ("x", "y")),
         ("x + y = 1", ()),
+        ("CylindricalDecomposition[x^2 + y^2 < 1, {x, y}];", ("x", "y")),
+        ("Reduce[x^2 < a, x, Reals, Cubics -> True]", ("x",)),
+        ("Reduce[x < 1, x] && y > 2", ()),
     ),
 )
 def test_the_variables_that_are_sought(typed: str, names: tuple[str, ...]) -> None:
-    assert plainly(typed).names == names
+    assert (text.solved_for(typed) or ()) == names
 
 
 @pytest.mark.parametrize(
