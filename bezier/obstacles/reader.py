@@ -28,7 +28,8 @@ from bezier.obstacles.polyhedron import (
 )
 from qe.errors import InputError, Unable
 from qe.exact.ring import Ring
-from qe.formula.normal import nnf
+from qe.formula.build import atom, conj, convert, exists
+from qe.formula.normal import nnf, rename, rename_apart
 from qe.formula.syntax import And, Atom, Constant, Formula, Or, Relation
 from qe.io.text import read as read_formula
 from qe.simplifier.factors import atom_under
@@ -82,11 +83,12 @@ ELIMINATION_SECONDS = 20.0
 Constraints = tuple[Constraint, ...]
 
 
-def formula_pieces(table: Table) -> tuple[tuple[Piece, ...], Any]:
-    """The pieces of the obstacle ``formula = "..."``. Raises ``InputError`` naming the key.
+def formula_pieces(table: Table, margin: Fraction) -> tuple[tuple[Piece, ...], Any]:
+    """The pieces of the obstacle ``formula = "..."``, of all points within ``margin`` of it. Raises ``InputError``
+    naming the key.
 
-    Quantifiers are eliminated first (the answer is the second result, None without any); then the disjunctive normal
-    form gives the pieces.
+    Quantifiers, also those of the margin, are eliminated first (the answer is the second result, None without any);
+    then the disjunctive normal form gives the pieces.
     """
     raw = table.required("formula", "a formula in x, y, z")
     if not isinstance(raw, str):
@@ -98,6 +100,7 @@ def formula_pieces(table: Table) -> tuple[tuple[Piece, ...], Any]:
     others = [name for name in formula.free if name not in NAMES]
     if others:
         raise table.error("formula", "no free variables but x, y, z", shorten(", ".join(others)))
+    formula = _within(formula, margin) if margin and formula.free else formula
     try:
         answer: Any = None
         if not formula.is_quantifier_free:
@@ -106,10 +109,22 @@ def formula_pieces(table: Table) -> tuple[tuple[Piece, ...], Any]:
                 raise Unable(answer.reason or "its quantifiers were not eliminated")
         pieces = _pieces(nnf(formula if answer is None else answer.formula))
     except (InputError, Unable) as error:
-        raise table.error("formula", "a formula that can be used", str(error)) from None
+        wanted = "a formula that can be used" + (f" with the margin {margin}" if margin else "")
+        raise table.error("formula", wanted, str(error)) from None
     if not pieces:
         raise table.error("formula", "a set that is not empty", "one that no point satisfies")
     return tuple(Piece(piece) for piece in pieces), answer
+
+
+def _within(formula: Formula, margin: Fraction) -> Formula:
+    """That some point where a formula holds is at most ``margin`` away. It has the same coordinates along axes of which
+    the formula says nothing."""
+    names = {name: f"{name}_near" for name in NAMES if name in formula.free}
+    moved = rename(rename_apart(formula, names.values()), names)
+    ring = Ring.of(dict.fromkeys((*names, *(moved.ring.names if moved.ring else ()))))
+    away = sum(((ring.var(a) - ring.var(b)) ** 2 for a, b in names.items()), ring.constant(0))
+    near = atom(away * margin.denominator**2 - margin.numerator**2, Relation.LE)
+    return exists(names.values(), conj((convert(moved, ring), near)))
 
 
 def _pieces(formula: Formula) -> list[Constraints]:
@@ -180,10 +195,8 @@ def _obstacle(table: Table, index: int) -> Obstacle:
         raise table.error("name", f"a name on one line, of at most {LONGEST_NAME} characters", describe(name))
     margin = table.not_negative("margin")
     if build is None:
-        if margin:
-            raise table.error("margin", "no margin for a formula (write it into the formula)", shorten(str(margin)))
-        pieces, elimination = formula_pieces(table)
-        return Obstacle(name, kind, pieces, stated=_stated(table.values), elimination=elimination)
+        pieces, elimination = formula_pieces(table, margin)
+        return Obstacle(name, kind, pieces, None, None, margin, _stated(table.values), elimination)
     return from_body(name, kind, build(table, margin), margin, _stated(table.values))
 
 

@@ -9,10 +9,10 @@ from typing import Any
 from bezier.input import stored
 from bezier.input.toml_table import Table
 from bezier.motion.timelaw import Law
-from bezier.retiming.least_time import checked, least_time
+from bezier.retiming.least_time import LeastTime, checked, least_time
 from bezier.trajectories.command import limits_of
 from bezier.trajectories.readers import load
-from qe.processes.channel import Channel
+from qe.processes.channel import TOLD, Channel
 
 
 def run(
@@ -34,13 +34,17 @@ def run(
     """
     path = load(file)
     listed = limits_of(Table.load(limits), len(path.names))
-    if against is None:
-        result = least_time(path, listed, law=law, accuracy=accuracy)
-    else:
-        result = checked(path, listed, stored.certificate(against))
-    data, lines = result.to_json(), result.lines
+
+    def told(result: LeastTime) -> tuple[dict[str, Any], list[str], str, str, str]:
+        data, lines = result.to_json(), result.lines
+        if against is not None:
+            data["checked"] = True
+            lines.append("accepted")
+        proof = result.certificate.to_json() if evidence else ""
+        return data, lines, result.to_csv(), proof, result.page(file.name) if page else ""
+
     if against is not None:
-        data["checked"] = True
-        lines.append("accepted")
-    proof = result.certificate.to_json() if evidence else ""
-    return data, lines, result.to_csv(), proof, result.page(file.name) if page else ""
+        return told(checked(path, listed, stored.certificate(against)))
+    budget = channel.budget()
+    budget.keep = lambda result: channel.fact(TOLD, told(result))
+    return told(least_time(path, listed, budget, law=law, accuracy=accuracy))

@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
+from contextlib import suppress
 from dataclasses import dataclass
 from fractions import Fraction
-from functools import cached_property
+from functools import cached_property, partial
 from itertools import accumulate
 from typing import Any
 
@@ -53,6 +54,8 @@ class LeastTime:
     verdict: Verdict
     weights: tuple[Weights, ...]
     bound: Fraction
+    missed: Fraction | None = None
+    """The accuracy that was asked for, where no grid reached it."""
 
     @property
     def duration(self) -> Fraction:
@@ -83,8 +86,11 @@ class LeastTime:
         there = " that rests where the parameter of the path stands still" if self.rests else ""
         times = f"{float(self.duration):.9g} s; every motion{there} takes at least {float(self.bound):.9g} s: {above}"
         places = (", ".join(f"{float(x):.6g}" for x in place) for place in self.rests)
+        has_jerk = any(outcome.limit.order > 2 for outcome in self.verdict.outcomes)
         return [
             times,
+            *([] if self.missed is None else [f"the accuracy {float(self.missed):.6g} was not reached"]),
+            *(["the bound is that without the limit of jerk, which it leaves aside"] if has_jerk else []),
             *(f"at rest at ({place}), where the parameter stands still" for place in places),
             *in_words(self.verdict),
         ]
@@ -126,6 +132,7 @@ class LeastTime:
             "duration": described(self.duration),
             "at least": described(self.bound),
             "gap": float(self.gap),
+            "accuracy not reached": None if self.missed is None else str(self.missed),
             "rests": [list(map(str, place)) for place in self.rests],
             "steps": [{"s": list(map(str, s.place.coefficients())), "seconds": str(s.duration)} for s in self.steps],
         }
@@ -163,8 +170,21 @@ def _least_time(path: Trajectory, limits: Sequence[Limit], law: Law, accuracy: F
     has_jerk = any(limit.order > 2 for limit in limits)
     if has_jerk and law not in (Law.LEAST, Law.QUINTIC):
         raise InputError(f"law: expected least or quintic with a limit of jerk, found {law.value}, of infinite jerk")
-    path = even(path)
-    grid, given = _proposals(Grid.of(path), bounds, float(accuracy), budget)
+    path, result = even(path), None
+    for grid, given in _proposals(Grid.of(path), bounds, float(accuracy), budget):
+        result, proved = None, partial(_proved, grid, given, bounds, limits, law, accuracy)
+        if budget.remaining() is not None:
+            with suppress(Unable):
+                result = proved()
+                budget.keep(result)
+    return result or proved()
+
+
+def _proved(
+    grid: Grid, given: Proposal, bounds: Bounds, limits: Sequence[Limit], law: Law, accuracy: Fraction
+) -> LeastTime:
+    """Both sides, exactly. Raises ``Unable`` and ``InputError`` as ``_keeping``."""
+    path, has_jerk = grid.path, any(limit.order > 2 for limit in limits)
     proved = tuple(weights(grid, given))
     seconds = bound(path, grid.stops, bounds, proved)
     if seconds <= 0:
@@ -178,12 +198,14 @@ def _least_time(path: Trajectory, limits: Sequence[Limit], law: Law, accuracy: F
         return fastest(grid, speeds / float(slower)) if law is Law.LEAST else usual(path, law, seconds * slower)
 
     steps, verdict = _keeping(grid, limits, motion, 1 + MARGIN if law is Law.LEAST else Fraction(1))
-    return LeastTime(path, steps, verdict, proved, seconds)
+    missed = given.duration - given.bound > float(accuracy) * given.bound
+    return LeastTime(path, steps, verdict, proved, seconds, accuracy if missed else None)
 
 
-def _proposals(grid: Grid, bounds: Bounds, accuracy: float, budget: Budget) -> tuple[Grid, Proposal]:
-    """The best of several grids, each finer where the gap is; one below zero is a failure of the solver."""
-    best = None
+def _proposals(grid: Grid, bounds: Bounds, accuracy: float, budget: Budget) -> Iterator[tuple[Grid, Proposal]]:
+    """Those of ever finer grids, finer where the gap is, each better than the ones before; one below zero is a failure
+    of the solver."""
+    best = np.inf
     for _ in range(PASSES):
         budget.check("speeds and multipliers")
         with np.errstate(all="ignore"):
@@ -191,13 +213,12 @@ def _proposals(grid: Grid, bounds: Bounds, accuracy: float, budget: Budget) -> t
         gap = abs(given.duration - given.bound)
         if not np.isfinite(gap) or np.count_nonzero(given.squares) + len(grid.resting) < grid.nodes:
             raise Unable("the path and its limits have numbers that floating point cannot hold")
-        if best is None or gap < abs(best[1].duration - best[1].bound):
-            best = grid, given
+        if gap < best:
+            best = gap
+            yield grid, given
         if gap <= accuracy * given.bound:
             break
         grid = grid.refined(_parts(given.gaps, max(0.8 * accuracy * given.bound, gap / LESS)))
-    assert best is not None
-    return best
 
 
 def _parts(gaps: Any, goal: float) -> list[int]:

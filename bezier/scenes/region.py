@@ -302,7 +302,7 @@ def _owners(scene: Scene, cell: Cell) -> tuple[int, ...] | None:
     where it is clear of all, None where that is not seen."""
     is_clear, nearly = True, dict[Constraint, int]()
     for k, body in enumerate(scene.formulas):
-        for piece in body.pieces:
+        for piece in () if body.margin and _is_far(body, cell) else body.pieces:
             spans = [(c, *_span(c, cell)) for c in piece]
             lacking = [c for c, low, _ in spans if not c.holds(low)]
             if not lacking:
@@ -314,6 +314,13 @@ def _owners(scene: Scene, cell: Cell) -> tuple[int, ...] | None:
                     return nearly[reverse], k
                 nearly[lacking[0]] = k
     return () if is_clear else None
+
+
+def _is_far(body: Solid, cell: Cell) -> bool:
+    """Whether a box around a cell, wider by the margin, is seen to be clear of a formula without that."""
+    low, high = ends_of(cell.corners)
+    box = Cell.box(tuple(c - body.margin for c in low), tuple(c + body.margin for c in high))
+    return all(any(not c.holds(_span(c, box)[1]) for c in piece) for piece in body.core)
 
 
 def _span(condition: Constraint, cell: Cell) -> tuple[Fraction, Fraction]:

@@ -43,6 +43,8 @@ class Solid:
     is_open: bool = False
     body: Body | None = None
     margin: Fraction = ZERO
+    core: tuple[tuple[Constraint, ...], ...] = ()
+    """The conditions of a formula without its margin."""
 
     @property
     def obstacle(self) -> Obstacle:

@@ -276,13 +276,55 @@ BALL = 'kind="ball"\ncentre=[0,0,0]\n'
     ('kind="formula"\nformula="x >"', "formula: expected a formula in x, y, z, found formula:1:4"),
     ('kind="formula"\nformula="x + w > 0"', "expected no free variables but x, y, z, found w"),
     ('kind="formula"\nformula="1 > 2"', "expected a set that is not empty"),
-    ('kind="formula"\nformula="x > 0"\nmargin=1', "expected no margin for a formula"),
+    ('kind="formula"\nformula="y^2 >= x^3 - x"\nmargin=1', "a formula that can be used with the margin 1, found time"),
     ('kind="formula"\nformula=3', "formula: expected a formula in x, y, z, found 3"),
 )
-def test_bad_obstacles_get_one_clear_line(body, said):
+def test_bad_obstacles_get_one_clear_line(body, said, monkeypatch):
+    monkeypatch.setattr("bezier.obstacles.reader.ELIMINATION_SECONDS", 0.5)
     with pytest.raises(InputError) as error:
         one(body)
     assert said in str(error.value) and "\n" not in str(error.value)
+
+
+def outline(x, y):
+    """Points of a curve with their parameters, many."""
+    s = np.linspace(-4, 4, 40_001)
+    return x(s), y(s)
+
+
+@each(
+    ("x^2 + 4*y^2 <= 4", outline(lambda s: 2 * np.cos(s), np.sin), lambda x, y: x * x + 4 * y * y <= 4),
+    ("y >= x^2", outline(lambda s: s, lambda s: s * s), lambda x, y: y >= x * x),
+    ("y = x^3", outline(lambda s: s, lambda s: s**3), lambda x, y: y == x**3),
+    ("ex u. u^2 <= 1 and x = u and y = 2*u^2 - 1", outline(np.cos, lambda s: np.cos(2 * s)), lambda x, y: False),
+)
+def test_a_formula_with_margin_is_the_points_within_the_margin(text, boundary, holds):
+    """Against the nearest of many points of the boundary; along z nothing changes."""
+    body, margin = one(f'kind="formula"\nformula="{text}"\nmargin=0.75'), 0.75
+    assert body.margin == Fraction(3, 4)
+    for x, y in np.random.default_rng(5).uniform(-3, 3, (300, 2)):
+        far = np.hypot(boundary[0] - x, boundary[1] - y).min()
+        if abs(far - margin) > 1e-3:
+            assert body.contains((Fraction(x), Fraction(y), Fraction(7))) is bool(far < margin or holds(x, y))
+
+
+def test_margins_of_formulas_in_space_and_of_open_ones():
+    ellipsoid = one('kind="formula"\nformula="x^2 + 4*y^2 + z^2 <= 4"\nmargin=0.5')
+    assert [ellipsoid.contains((Fraction(x), Fraction(0), Fraction(0))) for x in ("2.5", "2.5001")] == [True, False]
+    assert [ellipsoid.contains((Fraction(0), Fraction(0), Fraction(z))) for z in ("-2.5", "-2.5001")] == [True, False]
+    assert [ellipsoid.contains((Fraction(0), Fraction(y), Fraction(0))) for y in ("1.5", "1.5001")] == [True, False]
+    closed, opened = (one(f'kind="formula"\nformula="z {sign} 1"\nmargin=2') for sign in ("<=", "<"))
+    assert closed.contains((Fraction(0), Fraction(0), Fraction(3))) and not opened.contains(
+        (Fraction(0), Fraction(0), Fraction(3))
+    )
+    curve = Bezier(
+        (
+            (Fraction(-3), Fraction(0), Fraction(3)),
+            (Fraction(0), Fraction(0), Fraction(4)),
+            (Fraction(3), Fraction(0), Fraction(3)),
+        )
+    )
+    assert isinstance(examine(curve, opened), Clear) and not isinstance(examine(curve, closed), Clear)
 
 
 def test_two_obstacles_of_one_name():

@@ -170,10 +170,22 @@ def test_with_a_limit_of_jerk_the_time_is_near_the_bound_without_it(seed: int, a
         other.check(motion.certificate)
 
 
+def test_a_limit_of_time_gives_the_best_of_the_grids_that_are_solved() -> None:
+    """They were forgotten, and the answer was that the limit was reached."""
+    curve, limits = CubicSpline([0, 1, 2], [[0, 0], [1, 2], [3, 1]]), {"velocity": 3, "acceleration": 4}
+    motion = bezier.retime(curve, **limits, accuracy="1e-300", timeout=3)  # type: ignore[arg-type]
+    assert motion.missed == F(1, 10**300) and motion.verdict.is_kept and motion.gap < F(1, 250)
+    assert "the accuracy 1e-300 was not reached" in motion.lines and motion.to_json()["accuracy not reached"]
+    assert bezier.retime(curve, **limits, timeout=20).missed is None  # type: ignore[arg-type]
+    with pytest.raises(qe.BudgetExceeded):
+        bezier.retime(curve, **limits, timeout=1e-6)  # type: ignore[arg-type]
+
+
 def test_a_motion_with_a_limit_of_jerk_rests_at_corners() -> None:
     """The quintic law cannot."""
     motion = bezier.retime(path([[0, 1], [0]], [[1], [0, 1]]), acceleration=2, velocity=1, jerk=50)
     kept(motion, {"velocity": 1, "acceleration": 2, "jerk": 50})
+    assert "the bound is that without the limit of jerk, which it leaves aside" in motion.lines
     assert motion.duration < motion.bound * F(108, 100) and len(motion.steps) > 100
 
 
@@ -330,6 +342,9 @@ def test_the_command_writes_a_motion_that_certify_accepts(tmp_path: Path, capsys
     other.write_text("velocity = 0.8\nacceleration = [4, 5]\n")
     assert main([*words[:3], str(other), "--check", str(proof)]) == 4
     assert main([*words, "--law", "cubic"]) == 0
+    capsys.readouterr()
+    assert main([*words, "--accuracy", "1e-300", "--timeout", "4"]) == 0
+    assert "the accuracy 1e-300 was not reached\n" in capsys.readouterr().out
     assert main([*words, "--accuracy", "x"]) == 2
     assert main([*words, "--out", str(tmp_path / "m.json")]) == 2
 

@@ -45,6 +45,16 @@ def test_formulas_are_in_the_way(what: str, listed: list[Any], blocked: bool) ->
             proved(replace(found, walls=tuple(ends)).sentences, Budget(20))
 
 
+@each(("4.6", False), ("4.5", True))
+def test_formulas_keep_their_margins(level: str, blocked: bool) -> None:
+    """An ellipse and a box above, by the sum of the margins and a little more, just so, and less."""
+    low, high = formula("(x-5)^2 + 4*(y-2)^2 <= 4"), {"kind": "box", "low": [4, level], "high": [6, 10]}
+    scene = read_scene({**SCENE, "obstacle": [{**low, "margin": "1/2"}, high], "margin": "1/2"})
+    found = decided(scene, Budget(60))
+    found.check()
+    assert found.blocked is blocked
+
+
 def test_a_workspace_may_be_a_formula() -> None:
     """What it leaves out is open: its boundary may be used."""
     pear, bar = formula("((x-5)^2 - 9)^2/100 + (y-5)^2/9 <= 1"), {"kind": "box", "low": [4, 0], "high": [6, 10]}

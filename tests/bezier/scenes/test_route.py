@@ -617,7 +617,7 @@ def test_both_doors_say_the_same(tmp_path: Path, capsys: pytest.CaptureFixture[s
     ({**SCENE, "obstacle": [{"kind": "formula", "formula": "x^2 + y^2 < 1"}]}, "closed"),
     ({**SCENE, "obstacle": [{"kind": "formula", "formula": "x^2 + z^2 <= 1"}]}, "x and y"),
     ({**SCENE, "obstacle": [{"kind": "formula", "formula": "x <="}]}, "obstacle[0].formula"),
-    ({**SCENE, "obstacle": [{"kind": "formula", "formula": "x <= 1"}], "margin": 1}, "no margin for a formula"),
+    ({**SCENE, "obstacle": [{"kind": "formula", "formula": "x^2 + y^2 < 1"}], "margin": 1}, "closed"),
     ({**SCENE, "domain": {"kind": "formula", "formula": "x^2 + y^2 <= 1"}}, "bounded"),
 )
 def test_bad_scenes_are_one_line_that_names_the_entry(scene: object, word: str) -> None:

@@ -170,18 +170,19 @@ def test_links_meet_the_formulas_that_samples_meet_and_when(formula: str, arm: s
         assert first is None or times[k, i] - 0.05 < first < times[k, i] + 0.05
 
 
-def test_a_ball_is_met_at_the_same_time_as_its_formula() -> None:
+@pytest.mark.parametrize("margin", [0, 5])
+def test_a_ball_is_met_at_the_same_time_as_its_formula(margin: int) -> None:
     body = {**BALL, "centre": [200, 60, 0]}
-    formula = {"kind": "formula", "formula": "(x - 200)^2 + (y - 60)^2 + z^2 <= 400"}
+    text = f"(x - 200)^2 + (y - 60)^2 + z^2 <= {(20 - margin) ** 2}"
+    formula = {"kind": "formula", "formula": text, "margin": margin}
     one, other = (bezier.certify(MOTION, robot="planar-3r", obstacles=[o]).links for o in (body, formula))
     assert one.touches.keys() == other.touches.keys() == {(3, 0)}
     assert abs(one.time((3, 0)) - other.time((3, 0))) < 1e-6
 
 
-@each(("x^2 + y^2 <= 9", "margin", "no margin for a formula"), ("x^40 >= 10^120", "name", "degree above 64"))
-def test_formulas_that_are_not_decided_for_links_are_refused_in_a_line(formula: str, key: str, said: str) -> None:
-    with pytest.raises((InputError, qe.Unable), match=said):
-        bezier.certify(SMALL, robot="ev3-120", obstacles=[{"kind": "formula", "formula": formula, key: "2"}])
+def test_formulas_that_are_not_decided_for_links_are_refused_in_a_line() -> None:
+    with pytest.raises(qe.Unable, match="degree above 64"):
+        bezier.certify(SMALL, robot="ev3-120", obstacles=[{"kind": "formula", "formula": "x^40 >= 10^120"}])
 
 
 def test_a_contact_of_a_link_that_begins_at_the_base_has_a_certificate() -> None:
