@@ -25,7 +25,6 @@ from bezier.scenes.scene import load_table
 from bezier.trajectories.command import Certified
 from bezier.trajectories.links import Links, Touch
 from bezier.trajectories.objects import from_scipy
-from qe.errors import InputError
 from tests.tables import each
 
 TIMES, SHARES = np.linspace(0, 2, 81), np.linspace(0, 1, 61)[:, None]
