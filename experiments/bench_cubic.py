@@ -16,7 +16,7 @@ from typing import Any
 import qe
 from bezier.compare import whole_curve
 from bezier.compare.comparison import planar_statements
-from bezier.compare.planar import Plane
+from bezier.compare.whole_curve import Plane
 from bezier.curves.workspace import WorkspaceKind
 from bezier.methods.cubic import formula as cubic
 from bezier.methods.cubic.existence import sentence, trivial_witness

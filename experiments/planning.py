@@ -198,7 +198,7 @@ def toppra_law(points: Sequence[Any], intervals: int) -> tuple[Any, Any] | None:
 def path_row(points: Sequence[Any], intervals: int) -> tuple[PathRow, Any] | None:
     """What toppra's timing keeps, proved; None without toppra."""
     from bezier.trajectories.exact import composed
-    from bezier.trajectories.objects import from_scipy
+    from bezier.trajectories.readers import from_scipy
     from qe.exact.rational_poly import RationalPoly
 
     made, toppra_seconds = timed(lambda: toppra_law(points, intervals))

@@ -14,10 +14,9 @@ from enum import Enum
 from fractions import Fraction
 from functools import cached_property
 
-from bezier.arm.elimination import LIFTED, TURNS, Geometry, Reduction
+from bezier.arm.elimination import LIFTED, TURNS, Geometry, Ratio, Reduction, constant, reduced
 from bezier.arm.inverse import geometry_of
 from bezier.arm.model import Arm
-from bezier.arm.ratio import Ratio, constant, reduced
 from bezier.curves.curve import Bezier
 from bezier.curves.scalar import rational
 from bezier.proofs.course import coefficients

@@ -15,10 +15,9 @@ from numbers import Integral
 from typing import Any
 
 from bezier.arm.choices import BITS, AtPlace, Choice, Exact, Value, allowed, not_negative, spans
-from bezier.arm.elimination import LIFTED, TURNS, Geometry, M, Reduction, T
+from bezier.arm.elimination import LIFTED, TURNS, Geometry, M, Reduction, T, variable
 from bezier.arm.kinematics import floats
 from bezier.arm.model import Arm
-from bezier.arm.ratio import variable
 from bezier.curves.scalar import rational
 from bezier.proofs.square_roots import carried, image
 from qe.errors import InputError, InternalError

@@ -29,10 +29,9 @@ from math import hypot, lcm
 from typing import Any
 
 import qe
-from bezier.arm.elimination import Geometry
+from bezier.arm.elimination import Geometry, Ratio, constant, variable
 from bezier.arm.inverse import geometry_of
 from bezier.arm.model import Arm, Joint, JointKind, in_field
-from bezier.arm.ratio import Ratio, constant, variable
 from bezier.proofs.square_roots import Triple, back, carried, dot, image
 from bezier.proofs.three_joints import rows_of
 from qe.errors import Unable

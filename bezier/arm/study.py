@@ -23,10 +23,9 @@ from functools import partial
 from itertools import pairwise
 
 from bezier.arm.critical import AlongCurve, Number, Reason, S
-from bezier.arm.elimination import M, T
+from bezier.arm.elimination import M, Ratio, T, constant, variable
 from bezier.arm.inverse import Inverse, solve, solve_at
 from bezier.arm.model import Arm, Joint, JointKind
-from bezier.arm.ratio import Ratio, constant, variable
 from bezier.curves.curve import Bezier
 from bezier.proofs.held_joint import Held
 from qe.errors import Unable

@@ -12,10 +12,9 @@ from functools import cached_property, lru_cache, partial
 
 from bezier.arm.choices import AtPlace, Exact
 from bezier.arm.critical import AlongCurve, Number
-from bezier.arm.elimination import Geometry
+from bezier.arm.elimination import Geometry, variable
 from bezier.arm.inverse import Solution, geometry_of
 from bezier.arm.model import Arm
-from bezier.arm.ratio import variable
 from bezier.curves.curve import Bezier
 from bezier.proofs.course import coefficients, seen_from_base
 from bezier.proofs.joint_motions import Along, Between, Label, Plane

@@ -10,6 +10,7 @@ Facets are refined where the gap is largest (sandwich algorithm; Rote, Computing
 from __future__ import annotations
 
 import re
+from collections import Counter
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
@@ -19,10 +20,11 @@ from typing import Any
 from bezier.chains import proposals
 from bezier.chains.chain import Chain, freed, requirements
 from bezier.chains.form import Affine, Form, Point, Requirement, Solved, linear_form, weighted_sum
-from bezier.chains.hull import Facet, Hull
 from bezier.chains.proof import Contradiction, decided, lower_bound, near_optimum, rational_weights, refuted, witness
 from bezier.curves.enclosure import root_above, root_below
 from bezier.curves.scalar import described, dot
+from bezier.obstacles.polyhedron import whole
+from qe.convex.cone import Cone, Vector
 from qe.convex.simplex import Least, linear_optimum
 from qe.errors import InputError, Unable
 from qe.proof.certificate import Certificate
@@ -296,3 +298,43 @@ def _away(normal: Point, offset: Fraction, here: Point) -> float:
     """How far outside a half-space a point lies, in floating point."""
     length: float = float(dot(normal, normal)) ** 0.5
     return float(Fraction(dot(normal, here)) - offset) / length
+
+
+# --- convex hulls -------------------------------------------------------------------------------------------
+@dataclass(frozen=True, slots=True)
+class Facet:
+    """The hull has normal . p <= offset."""
+
+    normal: Point
+    offset: Fraction
+
+    @staticmethod
+    def of(ray: Vector) -> Facet:
+        """normal . p - offset <= 0, the largest coordinate of the normal 1 or -1."""
+        largest = max(map(abs, ray[:-1]))
+        return Facet(tuple(Fraction(c, largest) for c in ray[:-1]), Fraction(-ray[-1], largest))
+
+    def beyond(self, point: Point) -> Fraction:
+        """Positive outside: normal . point - offset."""
+        return Fraction(dot(self.normal, point)) - self.offset
+
+
+class Hull:
+    """The convex hull of points, one after the other: the half-spaces that hold all points are a cone, and its rays are
+    those of the facets. ``facets``: none until the points do not lie in one plane."""
+
+    def __init__(self, dimension: int) -> None:
+        self.cone = Cone(dimension + 1)
+        self.facets: list[Facet] = []
+
+    def add(self, point: Point) -> None:
+        """One more point."""
+        known = dict(zip(self.cone.rays, self.facets, strict=False))
+        self.cone.cut(whole((*point, 1)))
+        self.facets = [] if self.cone.lines else [known.get(ray) or Facet.of(ray) for ray in self.cone.rays]
+
+    @property
+    def corners(self) -> list[int]:
+        """The numbers of extreme points, in as many facets as the space has dimensions; of equal ones all."""
+        on = Counter(i for bits in self.cone.rays.values() for i in range(self.cone.count) if bits >> i & 1)
+        return sorted(i for i, count in on.items() if count >= self.cone.size - 1)

@@ -11,7 +11,7 @@ from markupsafe import Markup
 
 from bezier.compare.comparison import METHODS, Comparison
 from bezier.compare.output import TITLES
-from bezier.compare.planar import plane_coordinates
+from bezier.compare.whole_curve import plane_coordinates
 from bezier.motion.motion import in_time
 from bezier.motion.track import Track
 from bezier.pictures import plot, scene

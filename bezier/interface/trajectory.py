@@ -18,9 +18,8 @@ from bezier.motion.motion import in_time, joined
 from bezier.trajectories.along import load_path
 from bezier.trajectories.command import Certified, limits_of
 from bezier.trajectories.limits import Limit
-from bezier.trajectories.objects import from_scipy
 from bezier.trajectories.piecewise import Trajectory
-from bezier.trajectories.readers import load
+from bezier.trajectories.readers import from_scipy, load
 from qe import arguments
 from qe.errors import InputError
 from qe.progress import Listener, silent

@@ -15,10 +15,9 @@ from bezier.input.task import Axis, Task
 from bezier.obstacles.clearance import Contact
 from bezier.obstacles.survey import Finding
 from bezier.paths.path import Path
-from bezier.pictures.distance import signed_distances
 from bezier.pictures.mesh import Array, sampled
 from bezier.pictures.obstacles import COLOURS as OBSTACLES
-from bezier.pictures.obstacles import ObstaclePicture
+from bezier.pictures.obstacles import ObstaclePicture, signed_distances
 from bezier.pictures.picture import COLOURS, GRID, INK, PALE, SHADE, Chart, numbers
 from bezier.pictures.plot import framed, new_figure, svg_text
 

@@ -9,8 +9,8 @@ from typing import Any
 import numpy as np
 
 from bezier.obstacles.survey import Finding
-from bezier.pictures.distance import signed_distances
 from bezier.pictures.mesh import Array
+from bezier.pictures.obstacles import signed_distances
 from bezier.pictures.picture import INK, PALE
 from bezier.pictures.plot import framed, new_figure, svg_text
 from bezier.report import html

@@ -9,7 +9,7 @@ from typing import Any
 from bezier.input import stored
 from bezier.input.toml_table import Table
 from bezier.motion.timelaw import Law
-from bezier.retiming.least_time import LeastTime, checked, least_time
+from bezier.retiming.least_time import checked, least_time
 from bezier.trajectories.command import limits_of
 from bezier.trajectories.readers import load
 from qe.processes.channel import TOLD, Channel
@@ -35,7 +35,7 @@ def run(
     path = load(file)
     listed = limits_of(Table.load(limits), len(path.names))
 
-    def told(result: LeastTime) -> tuple[dict[str, Any], list[str], str, str, str]:
+    def told(result: Any) -> tuple[dict[str, Any], list[str], str, str, str]:
         data, lines = result.to_json(), result.lines
         if against is not None:
             data["checked"] = True

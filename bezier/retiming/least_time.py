@@ -21,9 +21,8 @@ from bezier.retiming.law import Step, fastest, is_motion, timed, usual
 from bezier.retiming.proposals import Proposal, proposal
 from bezier.retiming.smooth import speedings, steps_of
 from bezier.trajectories.evidence import claims, exceeding, refuted, whole
-from bezier.trajectories.limits import Limit, Verdict, decided
+from bezier.trajectories.limits import Limit, Verdict, decided, in_words, to_json
 from bezier.trajectories.piecewise import QUANTITIES, Trajectory
-from bezier.trajectories.words import in_words, to_json
 from qe.errors import CertificateRejected, InputError, Unable
 from qe.formula.syntax import FALSE, Formula
 from qe.options import Budget
@@ -223,17 +222,9 @@ def _proposals(grid: Grid, bounds: Bounds, accuracy: float, budget: Budget) -> I
 
 def _parts(gaps: Any, goal: float) -> list[int]:
     """Into how many parts each interval is cut, as few as bring the sum of the gaps to the goal: n parts leave gap / n,
-    since what each has is quadratic in its length."""
-    gaps = np.maximum(gaps, 0)
-    low, high = 1e-12 * gaps.max(), gaps.max()
-
-    def counts(each: float) -> Any:
-        return np.clip(np.ceil(np.sqrt(gaps / each)), 1, MOST)
-
-    for _ in range(50):
-        middle = (low * high) ** 0.5
-        low, high = (middle, high) if (gaps / counts(middle)).sum() <= goal else (low, middle)
-    return [int(n) for n in counts(low)]
+    since what each has is quadratic in its length; then n is in proportion to the root of the gap (Lagrange)."""
+    roots = np.sqrt(np.maximum(gaps, 0))
+    return [int(n) for n in np.clip(np.rint(roots * roots.sum() / goal), 1, MOST)]
 
 
 def _keeping(

@@ -296,10 +296,10 @@ def _solid(entry: Table, k: int, size: int, extra: Fraction, span: tuple[Point, 
                 return of_sides(name, corners, faces, margin)
             return Solid(name, corners, faces, radius, pieces, body=obstacle.body, margin=margin)
     bare = obstacle if not margin else _obstacle(replace(entry, values={**entry.values, "margin": "0"}), size, ZERO)
-    core = tuple(piece.constraints for piece in bare.pieces)
-    if any(c.strict for piece in core for c in piece):
+    given = tuple(piece.constraints for piece in bare.pieces)
+    if any(c.strict for piece in given for c in piece):
         raise entry.error("formula", "a closed set: conditions with <=, >= and =", "another condition")
-    return Solid(name, (), (), ZERO, pieces, margin=margin, core=core)
+    return Solid(name, (), (), ZERO, pieces, margin=margin, core=given)
 
 
 def _obstacle(entry: Table, size: int, extra: Fraction) -> Obstacle:

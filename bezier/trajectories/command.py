@@ -23,11 +23,10 @@ from bezier.scenes.scene import Scene, load_table, read_scene
 from bezier.scenes.sentences import beyond, surfaces
 from bezier.trajectories.along import Along, arm_limits, load_path
 from bezier.trajectories.evidence import members, stated
-from bezier.trajectories.limits import Limit, Verdict, decided
+from bezier.trajectories.limits import Limit, Verdict, decided, in_words, to_json
 from bezier.trajectories.links import NEAR, Links
 from bezier.trajectories.piecewise import QUANTITIES, Trajectory
 from bezier.trajectories.readers import load
-from bezier.trajectories.words import in_words, to_json
 from qe.errors import InputError, Unable
 from qe.options import Budget
 from qe.processes.channel import Channel

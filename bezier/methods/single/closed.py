@@ -21,8 +21,7 @@ from bezier.curves.scalar import sign
 from bezier.curves.workspace import Workspace, WorkspaceKind
 from bezier.input.task import Task, Values
 from bezier.methods.single.cuts import Cut, CutKind, Model
-from bezier.methods.single.program import curve, lower_of, rows_of
-from bezier.methods.single.simplex import Check, Solution, solve
+from bezier.methods.single.program import Check, Solution, curve, lower_of, rows_of, solve
 from qe.errors import BudgetExceeded, InputError, InternalError
 from qe.proof.certificate import Certificate
 

@@ -25,8 +25,7 @@ from bezier.curves.nonnegative import Negative, decide
 from bezier.curves.scalar import Vector, dot, scale, sign
 from bezier.curves.workspace import Workspace
 from bezier.input.task import Axis, Task, Values
-from bezier.methods.single.program import curve, lower_of, objective, rows_of, weights_at, widened
-from bezier.methods.single.simplex import Row, linear_program
+from bezier.methods.single.program import Row, curve, linear_program, lower_of, objective, rows_of, weights_at, widened
 from qe.convex.system import ConvexSystem
 from qe.exact.quadratic_form import Quadratic
 from qe.proof.multipliers import FormRelation

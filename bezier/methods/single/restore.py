@@ -19,8 +19,7 @@ from bezier.methods.control.terms import member
 from bezier.methods.single import plan
 from bezier.methods.single.closed import NoCurve, ProvedCurve
 from bezier.methods.single.cuts import Cut, CutKind, Model
-from bezier.methods.single.program import Chosen, curve, dips, program
-from bezier.methods.single.simplex import Solution
+from bezier.methods.single.program import Chosen, Solution, curve, dips, program
 from bezier.paths.path import prove
 from bezier.plans import Stated
 from bezier.problem import Problem

@@ -16,7 +16,7 @@ from scipy.spatial import ConvexHull
 import bezier
 import qe
 from bezier.chains import proposals
-from bezier.chains.hull import Hull
+from bezier.chains.region import Hull
 from bezier.cli.app import main
 from qe.errors import InputError, Unable
 from tests.tables import each

@@ -19,8 +19,8 @@ from bezier.obstacles.clearance import Clear, examine
 from bezier.obstacles.obstacle import Obstacle, ObstacleKind, Piece, from_body, half_space, pieces_of
 from bezier.obstacles.polyhedron import from_corners, from_half_spaces, point
 from bezier.obstacles.reader import read_obstacles, via_over
-from bezier.pictures.distance import signed_distances
 from bezier.pictures.mesh import sampled
+from bezier.pictures.obstacles import signed_distances
 from bezier.problem import from_json, read_problem, to_json
 from qe.errors import InputError
 from qe.exact.field import NumberField

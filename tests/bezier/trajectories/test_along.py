@@ -18,7 +18,7 @@ from bezier.arm.reader import load_arm, read_arm
 from bezier.arm.robot import Robot
 from bezier.arm.tip import tip_of
 from bezier.cli import main
-from bezier.trajectories.objects import from_scipy
+from bezier.trajectories.readers import from_scipy
 from qe.errors import InputError, QEError
 
 KNOTS = np.linspace(0, 2, 5)

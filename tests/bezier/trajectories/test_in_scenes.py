@@ -19,8 +19,8 @@ import qe
 from bezier.cli.app import main
 from bezier.input.toml_table import Table
 from bezier.trajectories.command import Certified
-from bezier.trajectories.objects import from_scipy
 from bezier.trajectories.piecewise import Trajectory
+from bezier.trajectories.readers import from_scipy
 from qe.errors import InputError
 from qe.exact.rational_poly import RationalPoly
 from tests.tables import each

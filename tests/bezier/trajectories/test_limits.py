@@ -19,9 +19,8 @@ from bezier.curves.sentences import verified
 from bezier.trajectories.evidence import members, stated
 from bezier.trajectories.exact import composed
 from bezier.trajectories.limits import Limit, Verdict, decided, is_below
-from bezier.trajectories.objects import from_scipy
 from bezier.trajectories.piecewise import Trajectory
-from bezier.trajectories.readers import load
+from bezier.trajectories.readers import from_scipy, load
 from qe.errors import CertificateRejected, InputError, QEError
 from qe.exact.rational_poly import RationalPoly
 from tests.bezier.trajectories.timed import least_time_law, spline, timed

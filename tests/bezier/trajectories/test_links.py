@@ -20,11 +20,11 @@ from bezier.arm.reader import load_arm
 from bezier.arm.robot import Robot
 from bezier.arm.tip import frames_of, is_fixed
 from bezier.cli import main
-from bezier.pictures.distance import signed_distances
+from bezier.pictures.obstacles import signed_distances
 from bezier.scenes.scene import load_table
 from bezier.trajectories.command import Certified
 from bezier.trajectories.links import Links, Touch
-from bezier.trajectories.objects import from_scipy
+from bezier.trajectories.readers import from_scipy
 from tests.tables import each
 
 TIMES, SHARES = np.linspace(0, 2, 81), np.linspace(0, 1, 61)[:, None]

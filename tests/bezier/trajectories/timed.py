@@ -11,8 +11,8 @@ import pytest
 from scipy.interpolate import CubicSpline
 
 from bezier.trajectories.exact import composed
-from bezier.trajectories.objects import from_scipy
 from bezier.trajectories.piecewise import Trajectory
+from bezier.trajectories.readers import from_scipy
 from qe.exact.rational_poly import RationalPoly
 
 

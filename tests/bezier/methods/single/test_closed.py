@@ -20,8 +20,7 @@ from bezier.methods.single import formula as single_formula
 from bezier.methods.single.closed import TOLERANCE, NoCurve, ProvedCurve, close
 from bezier.methods.single.cuts import CutKind, Model, violated
 from bezier.methods.single.formula import VALUE
-from bezier.methods.single.program import choose, curve, dips, weights_at
-from bezier.methods.single.simplex import linear_program, solve
+from bezier.methods.single.program import choose, curve, dips, linear_program, solve, weights_at
 from qe.convex.system import ConvexSystem
 from qe.errors import InputError, Unable
 from qe.exact.quadratic_form import Quadratic

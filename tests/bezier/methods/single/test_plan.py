@@ -13,9 +13,8 @@ from bezier.methods.single import method as single
 from bezier.methods.single.closed import NoCurve, close
 from bezier.methods.single.cuts import Model
 from bezier.methods.single.plan import CLOSED, PIECEWISE_DEGREE, _least_sums, task_of
-from bezier.methods.single.program import choose, curve, lower_of, objective, rows_of
+from bezier.methods.single.program import choose, curve, linear_program, lower_of, objective, rows_of, solve
 from bezier.methods.single.restore import certified_curve
-from bezier.methods.single.simplex import linear_program, solve
 from bezier.planner.outputs import data_texts, facts, path_json, write_texts
 from bezier.planner.planning import make_plan
 from bezier.plans import Outcome, Stated
