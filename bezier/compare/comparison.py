@@ -14,6 +14,7 @@ from typing import Any, TypeVar, cast
 import qe
 from bezier.compare import whole_curve
 from bezier.compare.whole_curve import Plane, plane_coordinates
+from bezier.curves.area import convex_area
 from bezier.curves.enclosure import REL, Enclosure
 from bezier.methods.control.statements import Statement, exists
 from bezier.methods.cubic import formula as cubic
@@ -51,7 +52,7 @@ OUTPUT_SHARE = 0.15
 """The share of the time left after the plans that is kept for the pictures and the files."""
 SHARES = {"(8)": 4, "(7)": 3, "(8*)": 2}
 """One part in so many of the time left is for each planar region. (8*) may take long, so it comes last."""
-AREA_REL, VOLUME_REL = 0.001, 0.05
+AREA_REL, VOLUME_REL = Fraction(1, 1000), 0.05
 """Relative width of areas and volumes."""
 
 
@@ -247,7 +248,7 @@ def planar_statements(problem: Problem, plane: Plane) -> dict[str, Statement]:
 
 
 def _region(question: Statement, plane: Plane, clock: Clock, seconds: float) -> PlanarRegion:
-    """The region, and its area if time allows.
+    """The region, which is convex: its conditions are convex in Q1 and Q2, for every t; its area if time allows.
 
     ``seconds``: of processor time, where the clock has no limit, so that a busy machine shows as much as another one.
     """
@@ -296,4 +297,4 @@ def _measured(formula: Formula, most: float | None, channel: Channel) -> tuple[q
     if region.cells and not region.is_empty:
         region.bounds(region.order[0])
     channel.fact("region", region)
-    return region, Enclosure(*region.volume(AREA_REL))
+    return region, convex_area(region, AREA_REL)

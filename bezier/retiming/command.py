@@ -12,7 +12,7 @@ from bezier.motion.timelaw import Law
 from bezier.retiming.least_time import checked, least_time
 from bezier.trajectories.command import limits_of
 from bezier.trajectories.readers import load
-from qe.processes.channel import TOLD, Channel
+from qe.processes.channel import ANSWERED, Channel
 
 
 def run(
@@ -35,7 +35,7 @@ def run(
     path = load(file)
     listed = limits_of(Table.load(limits), len(path.names))
 
-    def told(result: Any) -> tuple[dict[str, Any], list[str], str, str, str]:
+    def said(result: Any) -> tuple[dict[str, Any], list[str], str, str, str]:
         data, lines = result.to_json(), result.lines
         if against is not None:
             data["checked"] = True
@@ -44,7 +44,7 @@ def run(
         return data, lines, result.to_csv(), proof, result.page(file.name) if page else ""
 
     if against is not None:
-        return told(checked(path, listed, stored.certificate(against)))
+        return said(checked(path, listed, stored.certificate(against)))
     budget = channel.budget()
-    budget.keep = lambda result: channel.fact(TOLD, told(result))
-    return told(least_time(path, listed, budget, law=law, accuracy=accuracy))
+    budget.keep = lambda result: channel.fact(ANSWERED, said(result))
+    return said(least_time(path, listed, budget, law=law, accuracy=accuracy))

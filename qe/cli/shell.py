@@ -327,9 +327,9 @@ def limited(
         try:
             return run(partial(_with_doubts, work), limits, at_once=at_once, grace=grace, known=known)
         except Unable:
-            if TOLD not in known.facts:
+            if ANSWERED not in known.facts:
                 raise
-            return known.facts[TOLD]  # type: ignore[return-value]
+            return known.facts[ANSWERED]  # type: ignore[return-value]
         except (RecursionError, MemoryError, ValueError) as error:
             raise restored(*portable(error)) from error
         finally:

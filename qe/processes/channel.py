@@ -14,7 +14,7 @@ from qe.progress import Event, Listener
 
 KEPT = "result so far"
 """The fact under which a question tells what is its result should a limit end it."""
-TOLD = "answer so far"
+ANSWERED = "answer so far"
 """The same of a command: what it says then."""
 
 Message = tuple[str, object]
