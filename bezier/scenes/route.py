@@ -176,10 +176,16 @@ class Blocked:
         """What is proved of the walls and the two sides."""
         at = coordinates(self.scene)
         if self.divider:
-            said, taken_at = dict[str, Formula](), taken(self.scene, self.scene.bodies, at, 1)
+            said, lines = dict[str, Formula](), {terms for c in self.divider for terms in (c.terms, c.negated.terms)}
+            known = [{c.terms for piece in body.pieces for c in piece} & lines for body in self.scene.bodies]
             for k, c in enumerate(self.divider, start=1):
                 beyond = (replace(other, strict=False).negated.formula(at) for other in self.divider if other != c)
-                said[f"{DIVIDED} ({k})"] = every(at, disj((neg(atom(c.poly(at), Relation.EQ)), *beyond, taken_at)))
+                # bodies that other polynomials are of have nothing to do with this one
+                near = [
+                    b for b, m in zip(self.scene.bodies, known, strict=True) if not m or m & {c.terms, c.negated.terms}
+                ]
+                zero = taken(self.scene, near, at, 1)
+                said[f"{DIVIDED} ({k})"] = every(at, disj((neg(atom(c.poly(at), Relation.EQ)), *beyond, zero)))
             return said | dict(surfaces(self.scene))
         walls = (cell_of(wall) for wall in self.walls)
         both = conj(disj(of_sides(cell.sides, at) for cell in side) for side in (self.start_side, self.goal_side))
