@@ -176,13 +176,18 @@ class Blocked:
         """What is proved of the walls and the two sides."""
         at = coordinates(self.scene)
         if self.divider:
-            said, lines = dict[str, Formula](), {terms for c in self.divider for terms in (c.terms, c.negated.terms)}
-            known = [{c.terms for piece in body.pieces for c in piece} & lines for body in self.scene.bodies]
+            said, bodies = dict[str, Formula](), self.scene.bodies
+            # in the curve or surface of which of the polynomials each piece of a body lies, if in any
+            thin = [
+                [{d for d in self.divider if {d.terms, d.negated.terms} <= {c.terms for c in p}} for p in b.pieces]
+                for b in bodies
+            ]
             for k, c in enumerate(self.divider, start=1):
                 beyond = (replace(other, strict=False).negated.formula(at) for other in self.divider if other != c)
-                # bodies that other polynomials are of have nothing to do with this one
+                # other curves meet one in points, and so cover nothing of it
+                is_curve = any(c in d for own in thin for d in own)
                 near = [
-                    b for b, m in zip(self.scene.bodies, known, strict=True) if not m or m & {c.terms, c.negated.terms}
+                    b for b, own in zip(bodies, thin, strict=True) if not is_curve or any(c in d or not d for d in own)
                 ]
                 zero = taken(self.scene, near, at, 1)
                 said[f"{DIVIDED} ({k})"] = every(at, disj((neg(atom(c.poly(at), Relation.EQ)), *beyond, zero)))

@@ -13,7 +13,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 import qe
-from bezier.methods.single import closed, program, simplex
+from bezier.methods.single import closed, program
 from qe.errors import InputError, Unable
 from qe.proof.certificate import digest
 from tests.bezier.folder_mutation import EXAMPLES, Memory, alterations, not_certified, planned, refused, rejection
@@ -48,7 +48,7 @@ def test_a_folder_is_accepted_without_any_search(folders, monkeypatch, name):
 
     for function in ("eliminate", "minimize", "maximize", "region", "decide", "equivalent", "find_instance"):
         monkeypatch.setattr(qe, function, forbidden)
-    for module in (closed, program, simplex):
+    for module in (closed, program):
         monkeypatch.setattr(module, "solve", forbidden)
     assert rejection(folders[name]) is None
 
