@@ -311,7 +311,7 @@ def limited(
     """Do the work under hard limits, of which start-up has taken its part, with a progress display; ``lines``: also
     where there is no terminal. It begins in this process where nothing is limited and a ``text`` is read that is not
     long."""
-    from qe.processes.channel import TOLD, Known
+    from qe.processes.channel import ANSWERED, Known
     from qe.processes.execution import grace_of, run
     from qe.processes.limits import Limits
     from qe.processes.portable import portable
