@@ -208,7 +208,7 @@ def test_every_entry_of_the_evidence(whole: dict[str, Any], k: int) -> None:
     )
     for path, value in lists(step["evidence"], ("payload", "steps", k, "evidence")):
         for index in range(len(value)):
-            if path[-1] not in ("samples", "line"):  # a shorter list may do
+            if path[-1] not in ("samples", "line") and path[-3] != "cases":  # a shorter list, a stronger clause may do
                 refused(verify_json(without(whole, path, index)), k)
 
 
