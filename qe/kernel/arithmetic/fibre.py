@@ -151,7 +151,7 @@ class AlgebraicFibre:
         return self.count_by_remainders() if found is None else found
 
     def count_by_remainders(self) -> int:
-        """The number of distinct real roots by signed subresultants (Basu, Pollack, Roy 2006, section 4.2.2)."""
+        """The number of distinct real roots by signed subresultants (Basu, Pollack, Roy 2006, section 4.2)."""
         i = self.index
         chain = subresultants(self.point, self.poly, self.poly.derivative(i), i)
         signs = [(s.degree(i), _parity(self.degree - s.degree(i)) * self.point.sign(s.leading(i))) for s in chain]

@@ -267,7 +267,7 @@ def trim(point: Point, p: Poly, i: int) -> Poly:
 
 def gcd(point: Point, a: Poly, b: Poly, i: int) -> Poly:
     """A greatest common divisor in variable i over the field of the point; a and b trimmed, one nonzero: the last
-    subresultant that keeps its degree there (Basu, Pollack, Roy 2006, sections 4.2.2 and 8.3)."""
+    subresultant that keeps its degree there (Basu, Pollack, Roy 2006, sections 4.2 and 8.3)."""
     chain = subresultants(point, *((a, b) if a.degree(i) >= b.degree(i) else (b, a)), i)
     return reduce(point, next(s for s in reversed(chain) if point.sign(s.leading(i))))[0]
 
