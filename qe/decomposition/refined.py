@@ -7,30 +7,31 @@ So what is true on the larger cell is true there, and nothing has to be lifted a
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from dataclasses import replace
 from itertools import chain
 
-from qe.decomposition.decompose import Decomposed
+from qe.decomposition.operators.operator import Operator
 from qe.decomposition.projection import factor_lists
-from qe.decomposition.sampled_cells import free_part
 from qe.decomposition.stack import stack_over
 from qe.errors import NotWellOriented
-from qe.exact.ring import Ring
+from qe.exact.ring import Poly, Ring
 from qe.exact.sample import Point
 from qe.exact.watch import Watch
 from qe.options import Budget
 from qe.proof.cells import Cell, CellTable, Stack
 
 
-def refined(coarse: Decomposed, levels: frozenset[int], budget: Budget) -> CellTable | None:
-    """The free part of a decomposition, with the derivatives of the factors of these levels: it says where the formula
-    is true, and is no proof of that. None where a level is restricted by an equational constraint or a factor
-    nullified: the whole is to be decomposed again. Raises ``BudgetExceeded``.
+def refined(
+    table: CellTable, operator: Operator, levels: frozenset[int], budget: Budget, more: Iterable[Poly] = ()
+) -> CellTable | None:
+    """A table of free variables alone, with the derivatives of the factors of these levels, and ``more``: it says where
+    the formula is true, and is no proof of that. None where a level is restricted by an equational constraint or a
+    factor nullified: the whole is to be decomposed again. Raises ``BudgetExceeded``.
     """
-    table, operator = free_part(coarse.table), coarse.operator
     if any(table.constraints):
         return None
-    lists = factor_lists(chain.from_iterable(table.factors), table.free, operator, budget, levels)
+    lists = factor_lists(chain(more, *table.factors), table.free, operator, budget, levels)
 
     def inner(point: Point, cell: Cell) -> Cell:
         if cell.stack is None:
@@ -38,8 +39,10 @@ def refined(coarse: Decomposed, levels: frozenset[int], budget: Budget) -> CellT
         factors, known = lists[point.depth], table.factors[point.depth]
         used = tuple(range(len(factors)))
         fine = stack_over(point, factors, used, lazard=operator.evaluates)
-        if fine.nullified:
+        if fine.nullified and levels:  # derivatives may not tell the sections of its Lazard evaluation apart
             raise NotWellOriented("a factor is nullified")
+        if fine.nullified:
+            operator.check_nullified(point.depth, point.depth)
         budget.spend(len(fine.texts))
         budget.check("lift")
         old, place, cells = {factors.index(known[j]) for j in cell.stack.used}, 0, []

@@ -12,8 +12,8 @@ from qe.decomposition.follows import follows
 from qe.decomposition.formulas import construct, formula_of_cells
 from qe.decomposition.operators.table import OPERATORS
 from qe.decomposition.order import Prenex
-from qe.decomposition.refined import refined as refined_free_part
-from qe.decomposition.sampled_cells import deciding_point
+from qe.decomposition.refined import refined
+from qe.decomposition.sampled_cells import deciding_point, free_part
 from qe.decomposition.sign_table import Columns, free_cells
 from qe.elimination.protocol import Context, Outcome
 from qe.errors import BudgetExceeded, Contradiction
@@ -174,7 +174,8 @@ class _Question:
         def refine(more: frozenset[int]) -> CellTable:
             nonlocal levels
             levels = more
-            table = None if self.options.root_atoms else refined_free_part(found, levels, budget)
+            free = free_part(found.table)
+            table = None if self.options.root_atoms else refined(free, found.operator, levels, budget)
             return table or self.table(budget, levels, whole_free=whole_free).table
 
         answer, proof = construct(found.table, refine, levels)

@@ -10,6 +10,7 @@ from qe.convex.violation import proposed
 from qe.decomposition.operators.brown_mccallum import BROWN_MCCALLUM
 from qe.decomposition.operators.operator import Operator
 from qe.decomposition.projection import factor_lists
+from qe.decomposition.refined import refined
 from qe.elimination.critical.boundary import critical_hypersurfaces
 from qe.elimination.critical.bounded import has_bounded_fibres
 from qe.elimination.critical.fibres import Fibres, Spared
@@ -147,7 +148,7 @@ class Run:
 
         def attempt(
             closed: frozenset[int], planes: frozenset[Poly], operator: Operator
-        ) -> tuple[CellTable, frozenset[Poly]]:
+        ) -> tuple[CellTable, frozenset[Poly], Operator]:
             levels = factor_lists(
                 boundary.union(f.convert(self.system.ring) for f in planes), size, operator, self.budget, closed
             )
@@ -157,10 +158,13 @@ class Run:
             outer = Ring.of(self.system.ring.names[:size])
             factors = tuple(tuple(f.convert(outer) for f in level) for level in levels)
             table = CellTable(outer.names, ("",) * size, TRUE, operator.proof, factors, root)
-            return table, frozenset(builder.unsettled)
+            return table, frozenset(builder.unsettled), operator
 
-        def table(closed: frozenset[int], planes: frozenset[Poly]) -> tuple[CellTable, frozenset[Poly]]:
-            return BROWN_MCCALLUM.applied(lambda operator: attempt(closed, planes, operator))
+        def refine(levels: frozenset[int], planes: frozenset[Poly]) -> CellTable:
+            finer = refined(first, operator, levels, self.budget, planes)
+            return finer or BROWN_MCCALLUM.applied(lambda operator: attempt(levels, planes, operator))[0]
 
-        first, unsettled = table(frozenset(), frozenset())
-        return Tabulated(first, lambda levels, planes: table(levels, planes)[0], unsettled)
+        first, unsettled, operator = BROWN_MCCALLUM.applied(
+            lambda operator: attempt(frozenset(), frozenset(), operator)
+        )
+        return Tabulated(first, refine, unsettled)
