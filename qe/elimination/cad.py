@@ -79,7 +79,7 @@ def decomposed(formula: Formula, options: Options, budget: Budget, log: RunLog) 
     log.step("cells", formula, answer, evidence=kept(formula, make, options))
     # back into the ring of the formula it came from: it is joined with parts of that formula
     ring = formula.ring
-    return Outcome(answer if ring is None else convert(answer, ring), values, make=make, large=True, cells=whole)
+    return Outcome(answer if ring is None else convert(answer, ring), values, make=make, large=True)
 
 
 def kept(formula: Formula, make: Callable[[], Certificate] | None, options: Options) -> dict[str, object]:

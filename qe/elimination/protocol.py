@@ -14,7 +14,6 @@ from qe.formula.block import Block
 from qe.formula.build import convert
 from qe.formula.syntax import TRUE, Formula
 from qe.options import Budget, Options
-from qe.proof.cells import CellTable
 from qe.proof.certificate import Certificate, Root
 from qe.proof.on_demand import Evidence, OnDemand
 from qe.proof.run_log import RunLog
@@ -43,7 +42,6 @@ class Outcome:
     ``witness``: exact values for the block's variables that make a true existential sentence true, or a false universal
     one false; None when not known. ``certificate``: of this very problem and formula, where the method makes one;
     ``make``: what makes it where it is read, of a ``large`` one only where it is asked for.
-    ``cells``: a decomposition of the space of the free variables that knows the signs of all its factors.
     ``order``: that of the free variables in which the formula was read off, where that matters to who goes on.
     ``back``: where a method reduces the problem to another question, which is ``formula`` then: the outcome for the
     problem from the one for that question. ``shortest``: no part of the formula can be left out.
@@ -64,7 +62,6 @@ class Outcome:
     shortest: bool = False
     make: Callable[[], Certificate] | None = None
     large: bool = False
-    cells: CellTable | None = None
 
     def nested(self, question: Formula) -> Nested:
         """How the answer to the question was derived, as evidence of a step to another."""

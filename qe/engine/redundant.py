@@ -3,8 +3,7 @@
 ``c = 0 and P or c /= 0 and Q`` is Q where Q says at c = 0 what P says. A part of a disjunction matters at the points
 where it holds, the other parts do not, and every conjunct beside the way down to it does (every disjunct does not);
 in a conjunction, where it fails and the others hold. Whether there is such a point is a sentence. A few points answer
-most of these sentences at once, and cells of a decomposition all of them where one is known; the others are decided,
-with little work, largest parts first.
+most of these sentences at once; the others are decided, with little work, largest parts first.
 """
 
 from __future__ import annotations
@@ -15,19 +14,17 @@ from dataclasses import dataclass, field
 from fractions import Fraction
 from functools import cached_property
 
-from qe.decomposition.sign_table import Columns, Masks, free_cells, where
+from qe.decomposition.sign_table import Masks, where
 from qe.elimination.protocol import Context
 from qe.errors import Unable
 from qe.exact.number import Values
-from qe.exact.ring import Poly, Ring
-from qe.formula.build import conj, convert, disj, exists
+from qe.exact.ring import Poly
+from qe.formula.build import conj, disj, exists
 from qe.formula.features import length
 from qe.formula.normal import nnf
 from qe.formula.syntax import FALSE, TRUE, And, Atom, Formula, Or, Relation
 from qe.formula.traverse import atoms, bound_variables
 from qe.options import Stage
-from qe.proof.cells import CellTable
-from qe.proof.on_demand import OnDemand, Repeated
 from qe.proof.step import Nested, Place, Step
 from qe.simplifier.simplify import simplify
 
@@ -66,13 +63,12 @@ Holding = Callable[[Formula], int]
 
 @dataclass(slots=True)
 class Start:
-    """The question that an answer is to, where its steps begin in the log, whether the answer is as short as its cells
-    allow, and cells with the signs of all factors."""
+    """The question that an answer is to, where its steps begin in the log, and whether the answer is as short as cells
+    allow."""
 
     question: Formula
     mark: int
     settled: bool = False
-    cells: CellTable | None = None
 
 
 @dataclass(frozen=True)
@@ -107,10 +103,6 @@ def without_redundant_parts(
     """
     if context.decide is None or not all(isinstance(a, Atom) for a in atoms(formula)) or formula != nnf(formula):
         return formula
-    if start is not None and start.cells is not None:
-        formula, settled = _without_parts_on_cells(formula, start.cells, context)
-        if settled:
-            return formula
     plain = [a for a in formula.args if isinstance(a, Atom)] if isinstance(formula, And | Or) else []
     is_long = len(plain) == length(formula)[0] > MOST_CURVED and any(a.poly.total_degree > 1 for a in plain)
     if is_long or not _is_suited(conj((known, formula))):
@@ -136,32 +128,6 @@ def without_redundant_parts(
             points.take(outcome.witness if outcome is not None else None)
             patience -= 1
     return _without_excluded_parts(formula, context, points)
-
-
-def _without_parts_on_cells(formula: Formula, table: CellTable, context: Context) -> tuple[Formula, bool]:
-    """The formula without parts that matter on no cell; and whether all signs in it are known there."""
-    from qe.elimination.cad import decomposed
-
-    ring, columns = Ring.of(table.order), Columns(free_cells(table), table.factors)
-
-    def holding(part: Formula) -> int:
-        true, false = columns.where(convert(part, ring))
-        if true | false != columns.everything:
-            raise KeyError(part)
-        return true
-
-    while True:
-        try:
-            part = next(iter(_by_size(formula, holding)), None)
-        except KeyError:  # also of a polynomial that is no product of the table's factors
-            return formula, False
-        if part is None:
-            return formula, True
-        again = OnDemand(Repeated(decomposed, part.sentence, context.options))
-        step = Step("simplification", part.sentence, FALSE)
-        if simplify(conj(part.conditions), watch=context.budget.check) != FALSE:
-            step = Step("cells", part.sentence, FALSE, evidence={"proof": again})
-        formula = _dropped(formula, part, Nested(part.sentence, (step,), FALSE), context)
 
 
 def _without_excluded_parts(formula: Formula, context: Context, points: Points | None = None) -> Formula:

@@ -54,8 +54,6 @@ def read_off_cells(formula: Formula, context: Context, start: Start | None) -> F
 
     work = LONG_WORK if start is not None and length(formula)[1] >= LONG else SHORTEN_WORK
     outcome = decomposed(formula, context.options, context.budget.part(work), RunLog())
-    if start is not None:
-        start.cells = outcome.cells
     if length(outcome.formula) >= length(formula):
         return formula
     evidence = kept(formula, outcome.make, context.options)
