@@ -10,17 +10,14 @@ import pytest
 import qe
 import qe.engine.redundant as redundant
 from qe.api.input import read_formula
-from qe.decomposition.decompose import Tactics, decompose
 from qe.elimination.protocol import Context, Outcome
-from qe.engine.redundant import Start, without_part, without_redundant_parts
-from qe.engine.run import outcome_for
+from qe.engine.redundant import without_part, without_redundant_parts
 from qe.formula.build import conj
 from qe.formula.evaluate import holds_at
 from qe.formula.syntax import FALSE, Formula
 from qe.formula.traverse import conjuncts
 from qe.options import Budget, Options
 from qe.proof.derivation import moved
-from qe.proof.on_demand import completed
 from qe.proof.run_log import RunLog
 from tests.certificates.test_steps_by_hand import accepted
 
@@ -200,64 +197,12 @@ def test_few_points_are_looked_at_for_parts_that_are_worth_no_question() -> None
     assert len(points.listed) == redundant.FIRST + 6
 
 
-# --- by the cells of a decomposition ---------------------------------------------------------------
-ON_CELLS = {
-    "a < 0 or b < 0 or a + b < 0": "a < 0 or b < 0",
-    "a^2 + b^2 < 1 and a < 1": "a^2 + b^2 < 1",
-    "a > 0 and (b > 0 or a + b > 0 and b < 0 or b = 0)": "a > 0 and a + b > 0",
-}
-
-
-def on_cells(text: str, cells_of: str | None = None, *, whole: bool = True) -> tuple[str, int, RunLog]:
-    """By the cells of the plane; how many questions were asked beside."""
-    log, matrix, asked = RunLog(), read_formula(cells_of or text), list[Formula]()
-
-    def decide(question: Formula, options: Options, budget: Budget) -> Outcome:
-        asked.append(question)
-        return outcome_for(question, options, budget)
-
-    tactics = Tactics(whole_free=whole)
-    table = decompose(matrix, matrix.free, ("",) * len(matrix.free), budget=Budget(), tactics=tactics).table
-    context = Context(Options(), Budget(), log, decide)
-    shorter = without_redundant_parts(read_formula(text), context, Start(matrix, 0, cells=table))
-    return str(shorter), len(asked), log
-
-
-@pytest.mark.parametrize("text", ON_CELLS)
-def test_what_matters_on_no_cell_is_dropped_without_a_question(text: str) -> None:
-    shorter, asked, _ = on_cells(text)
-    assert (shorter, asked) == (ON_CELLS[text], 0)
-    assert qe.decide(f"all a, b. ({text}) <-> ({shorter})")
-
-
-@pytest.mark.parametrize("text", ["a < 0 and b < 0", "a*b < 1 or a > b", "a = 0 or b = 0", "a < 0 or a > 0 and b = 0"])
-def test_a_part_that_matters_on_a_cell_stays(text: str) -> None:
-    assert on_cells(text)[:2] == (str(read_formula(text)), 0)
-
-
-def test_where_signs_are_not_known_on_the_cells_questions_are_asked() -> None:
-    """Where a < 0 the sign of b is not looked for; and the plane of a and b knows nothing of a - b - 2."""
-    text = "a < 0 or b < 0 or a + b < 0"
-    assert on_cells(text, whole=False)[:2] == (ON_CELLS[text], 1)
-    assert on_cells("a - b < 3 or a - b < 2", "a < 0 and b < 0")[:2] == ("a < b + 3", 1)
-
-
-def test_the_step_says_why_no_cell_needs_the_part() -> None:
-    (step, *_) = on_cells("a^2 + b^2 < 1 and a + b < 2")[2].steps()
-    assert step.rule == "redundant part"
-    nested = completed(step, Budget()).evidence["proof"]["steps"]  # type: ignore[index]
-    assert nested.answer == FALSE
-    (inner,) = nested.steps
-    assert inner.rule == "cells"
-    assert set(inner.evidence["proof"]) == {"certificate"}
-
-
-def test_the_checkers_accept_an_answer_without_parts_that_matter_on_no_cell() -> None:
+def test_the_checkers_accept_an_answer_without_parts_that_matter_nowhere() -> None:
     answer = qe.eliminate("ex x. a*x^2 + b*x + c = 0", check=True)
     assert answer.log is not None
     dropped = [step for step in answer.log.steps() if step.rule == "redundant part"]
     (inner,) = dropped[0].evidence["proof"]["steps"].steps  # type: ignore[index]
-    assert (len(dropped), inner.rule) == (1, "simplification")  # which needs no cells to be proved
+    assert (len(dropped), inner.rule) == (1, "simplification")
     assert answer.certificate is not None
     assert qe.verify(answer.certificate).accepted
     assert answer.unchecked_steps == ()
