@@ -202,7 +202,7 @@ def test_the_checkers_accept_an_answer_without_parts_that_matter_nowhere() -> No
     assert answer.log is not None
     dropped = [step for step in answer.log.steps() if step.rule == "redundant part"]
     (inner,) = dropped[0].evidence["proof"]["steps"].steps  # type: ignore[index]
-    assert (len(dropped), inner.rule) == (1, "simplification")
+    assert (len(dropped), inner.rule) == (1, "standard simplification")
     assert answer.certificate is not None
     assert qe.verify(answer.certificate).accepted
     assert answer.unchecked_steps == ()
