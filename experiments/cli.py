@@ -236,6 +236,23 @@ def overhead(
             print(measured(problem, repeat), flush=True)
 
 
+@app.command(short_help="Which rule or method decides what.")
+def mechanisms(
+    suites: Annotated[list[str] | None, typer.Option("--suite", help="A suite; default: classics.")] = None,
+    limit: Annotated[float, typer.Option(min=0.01, help="Seconds for each problem.")] = 5.0,
+    only: Annotated[str, typer.Option(help="Problems whose name or set contains this.")] = "",
+    check: Annotated[bool, typer.Option("--check", help="Prove the answers, too.")] = False,
+) -> None:
+    """For each attempt, rule and kind of proved step: how often it was tried and of use, its seconds, those in vain."""
+    from experiments.mechanisms import lines, measured
+
+    problems = [p for name in suites or ["classics"] for p in _problems(name, only)]
+    if not problems:
+        raise InputError(f"--only: no problem has {only!r} in its name or set")
+    for text in lines(measured(problems, limit, certify=check)):
+        print(text)
+
+
 @app.command(short_help="Run SMT-LIB scripts through qe smt.")
 def scripts(
     folder: Annotated[Path, typer.Argument(exists=True, file_okay=False, help="A folder of SMT-LIB scripts (*.smt2).")],

@@ -88,8 +88,8 @@ def shortened(
         return formula
     for rule in RULES:
         off = rule.stage in context.options.without or (rule.last and start is None)
-        off |= start is not None and start.settled and rule.apply is not affine_hull_first
-        again = rule.apply is read_off_cells and known is not None and formula in known and length(formula)[1] < LONG
+        off |= start is not None and start.settled and rule.name != "affine hull"
+        again = rule.name == "cells" and known is not None and formula in known and length(formula)[1] < LONG
         if off or again or not rule.pays(formula, context):
             continue
         mark = context.log.mark()

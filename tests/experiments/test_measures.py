@@ -310,3 +310,14 @@ def test_proofs_agree_with_sampling_on_random_pairs() -> None:
     for curve, obstacle, clear in pairs:
         if sampled_contact(curve, obstacle):
             assert not clear
+
+
+def test_which_mechanism_decides_is_counted(capsys: pytest.CaptureFixture[str]) -> None:
+    """Two discs are a closed form; nothing else is of use after it, and its step is proved."""
+    assert main(["mechanisms", "--only", "putnam", "--check"]) == 0
+    head, *rows = capsys.readouterr().out.splitlines()
+    assert head.split() == ["tried", "used", "problems", "seconds", "in", "vain"]
+    used = {name: row.split()[:3] for row in rows for _, name in [row.split(": ", 1)] if row.split()[1] != "0"}
+    assert used["two balls (project putnam)"] == ["1", "1", "1"]
+    assert not any("cad" in name for name in used)
+    assert main(["mechanisms", "--only", "no such problem"]) == 2
