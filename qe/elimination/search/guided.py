@@ -17,8 +17,8 @@ from typing import Any
 from qe.convex.linear_point import LARGE, WORK
 from qe.elimination.search.clauses import Clause, Clauses
 from qe.elimination.search.linear_forms import FormBounds
-from qe.elimination.search.linear_theories import Forms, said
-from qe.elimination.search.online import Propagator
+from qe.elimination.search.linear_theories import Differences, Forms, Said, difference, said
+from qe.elimination.search.online import LinearTheory, Propagator
 from qe.elimination.search.proposed_bounds import ProposedBounds, suits
 from qe.elimination.search.theory import Theory
 from qe.exact.linear_bounds import TooMuch
@@ -45,17 +45,27 @@ def guided(clauses: Clauses, theory: Theory) -> Values | list[Clause]:
         with suppress(TooMuch):
             forms = Forms(bounds, lambda: theory.budget.check("search: bounds"), FormBounds(work))
             theory.bounds.offer(clauses.polys)
-            return _guided(clauses, theory, forms, linear)
+            return _guided(clauses, bounds, theory, forms, linear)
     theory.at_once = True
     forms = Forms(bounds, lambda: theory.budget.check("search: bounds"), ProposedBounds(theory.budget.remaining()))
-    return _guided(clauses, theory, forms, linear)
+    return _guided(clauses, bounds, theory, forms, linear)
 
 
-def _guided(clauses: Clauses, theory: Theory, forms: Forms, linear: bool) -> Values | list[Clause]:
+def _guided(
+    clauses: Clauses, bounds: Sequence[Said], theory: Theory, forms: Forms, linear: bool
+) -> Values | list[Clause]:
     from pysat.solvers import Cadical195, pysolvers
 
     budget = theory.budget
     point: Values = {}
+    theories: list[LinearTheory] = []
+    differences = Differences(bounds) if Differences.suit(bounds) else None
+    leading: Forms | None = None  # whose point says what is preferred; among curved conditions it says too little
+    if differences is None or any(difference(one.direction) is None for one in bounds):
+        theories.append(forms)
+        leading = forms if linear else None
+    if differences is not None:
+        theories.insert(0, differences)
 
     def check() -> None:
         budget.spend(1)
@@ -68,7 +78,7 @@ def _guided(clauses: Clauses, theory: Theory, forms: Forms, linear: bool) -> Val
             if (reasons := forms.settle(now=True)) is not None:
                 return [[-r for r in reasons]]
         else:
-            theory.bounds.start(forms.point())
+            theory.bounds.start(theories[-1].point())
         looked = theory.look(clauses.chosen(model, sign if theory.at_once else theory.bounds.sign))
         if isinstance(looked, dict):
             point.update(looked)
@@ -80,12 +90,12 @@ def _guided(clauses: Clauses, theory: Theory, forms: Forms, linear: bool) -> Val
         return forms.holds(above) - forms.holds(below)
 
     def prefer() -> None:
-        if linear and (changed := forms.changes()):  # among curved conditions the point says too little
+        if leading is not None and (changed := leading.changes()):
             pysolvers.cadical195_setphases(solver.cadical, changed)
 
-    propagator = Propagator(forms, clauses.needed, check, last, prefer)
+    propagator = Propagator(theories, clauses.needed, check, last, prefer)
     with Cadical195(bootstrap_with=clauses.clauses) as solver:
-        if linear:
+        if leading is not None:
             solver.set_phases([-zero for _, _, zero in clauses.triples()])
         solver.connect_propagator(propagator)
         for literal in clauses.signs():

@@ -1,12 +1,16 @@
-"""Bounds of linear forms as the theory of the SAT solver. A monomial counts as a variable of its own, as in
-``monomial_bounds``.
+"""Bounds of linear forms as theories for the SAT solver: differences of two variables by shortest paths, others by the
+simplex method. A monomial counts as a variable of its own, as in ``monomial_bounds``.
 """
 
 from __future__ import annotations
 
+from bisect import bisect_left
 from collections import defaultdict
 from collections.abc import Callable, Hashable, Iterable, Iterator
 from fractions import Fraction
+from functools import partial
+from importlib.util import find_spec
+from math import lcm
 from typing import NamedTuple
 
 from qe.elimination.search.linear_forms import Direction, FormBounds, Monomial, over_monomials
@@ -14,6 +18,9 @@ from qe.elimination.search.proposed_bounds import ProposedBounds
 from qe.exact.linear_bounds import Value
 from qe.exact.ring import Poly
 from qe.formula.syntax import Relation
+
+MOST_VERTICES = 300
+"""More variables are left to the simplex method: all paths between them are too many."""
 
 
 class Said(NamedTuple):
@@ -38,6 +45,98 @@ def said(bounds: Iterable[tuple[int, Poly, Relation]]) -> Iterator[Said]:
             last, form = poly, over_monomials(poly)
         upper = (relation in (Relation.LE, Relation.LT)) == (form.scale > 0)
         yield Said(literal, form.direction, form.bound, upper, relation.is_strict)
+
+
+def difference(direction: Direction) -> tuple[Monomial, Monomial | None] | None:
+    """(x, y) of a form x - y, (x, None) of x; None for any other."""
+    match direction:
+        case ((x, _),):
+            return x, None
+        case ((x, 1), (y, -1)):
+            return x, y
+    return None
+
+
+class Differences:
+    """Bounds of variables and of differences of two."""
+
+    @staticmethod
+    def suit(bounds: Iterable[Said]) -> bool:
+        """Whether there are differences, not too many variables in them, and arrays for their paths."""
+        pairs = [pair for one in bounds if (pair := difference(one.direction)) is not None]
+        return 0 < len({m for pair in pairs for m in pair}) <= MOST_VERTICES and find_spec("numpy") is not None
+
+    def __init__(self, bounds: Iterable[Said]) -> None:
+        from qe.exact.difference_graph import DifferenceGraph  # and numpy
+
+        vertices: dict[Monomial | None, int] = {None: 0}
+        ends: list[tuple[Said, int, int]] = []
+        for one in bounds:
+            pair = difference(one.direction)
+            if pair is not None:
+                x, y = (vertices.setdefault(m, len(vertices)) for m in pair)
+                ends.append((one, *((y, x) if one.upper else (x, y))))
+        # a cycle has fewer edges than that: strict bounds are weak ones moved by one part of it
+        size = len(vertices) + 1
+        scale = size * lcm(*(one.bound.denominator for one, _, _ in ends))
+        self.vertices, self.scale = vertices, scale
+        self.edges: dict[int, tuple[int, int, int]] = {}
+        self.watched: defaultdict[tuple[int, int], list[tuple[int, int]]] = defaultdict(list)
+        for one, u, v in ends:
+            length = int((one.bound if one.upper else -one.bound) * scale) - one.strict
+            self.edges[one.literal] = u, v, length
+            self.watched[u, v].append((length, one.literal))
+        for listed in self.watched.values():
+            listed.sort()
+        self.graph = DifferenceGraph(len(vertices), 1 + sum(abs(w) for _, _, w in self.edges.values()))
+        self.is_watched = self.graph.length < 0  # none so far
+        self.is_watched[tuple(zip(*self.watched))] = True
+        self.nearer: list[tuple[int, int, int]] = []
+
+    def tell(self, literal: int) -> list[int] | None:
+        """A literal is true: literals that cannot hold together, or None."""
+        edge = self.edges.get(literal)
+        if edge is None:
+            return None
+        found = self.graph.add(*edge, literal)
+        if isinstance(found, list):
+            return _literals(found)
+        if found is not None:
+            known = self.is_watched[found.starts, found.ends]
+            columns = (found.starts[known], found.ends[known], found.lengths[known])
+            self.nearer += zip(*(column.tolist() for column in columns))
+        return None
+
+    def settle(self) -> list[int] | None:
+        """The same for all that were told so far."""
+        return None
+
+    def implied(self) -> Iterator[tuple[int, Callable[[], list[int]]]]:
+        """Literals that follow from those told since the last call, each with those from which it does."""
+        edges = len(self.graph.edges)
+        for u, v, before in self.nearer:
+            listed, now = self.watched[u, v], int(self.graph.length[u, v])
+            for length, literal in listed[bisect_left(listed, (now, 0)) :]:
+                if length >= before:
+                    break
+                yield literal, partial(self._reasons, u, v, edges)
+        self.nearer.clear()
+
+    def _reasons(self, u: int, v: int, edges: int) -> list[int]:
+        return _literals(self.graph.reasons(u, v, edges))
+
+    def mark(self) -> int:
+        """The present state, for ``back``."""
+        return len(self.graph.edges)
+
+    def back(self, mark: int) -> None:
+        self.nearer.clear()
+        self.graph.keep(mark)
+
+    def point(self) -> dict[Monomial, Fraction]:
+        """Values that keep all bounds."""
+        values = self.graph.potentials()
+        return {m: Fraction(values[x] - values[0], self.scale) for m, x in self.vertices.items() if m is not None}
 
 
 class Forms:
@@ -78,6 +177,9 @@ class Forms:
         self.changed = False
         conflict = self.bounds.conflict(self.check, now=now)
         return None if conflict is None else _literals(self.bounds.weakened(self._offered))
+
+    def implied(self) -> Iterator[tuple[int, Callable[[], list[int]]]]:
+        return iter(())
 
     def mark(self) -> int:
         return self.bounds.mark()

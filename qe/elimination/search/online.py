@@ -1,6 +1,6 @@
-"""The theory of linear bounds at work inside a SAT solver: contradictions at once.
+"""The theory of linear bounds at work inside a SAT solver: contradictions at once, and what follows from bounds.
 
-Nieuwenhuis, Oliveras, Tinelli 2006 (DPLL(T)); Fazekas, Niemetz, Preiner, Kirchweger, Szeider,
+Nieuwenhuis, Oliveras, Tinelli 2006 (DPLL(T) with theory propagation); Fazekas, Niemetz, Preiner, Kirchweger, Szeider,
 Biere 2023 (the interface, IPASIR-UP). What is found this way are clauses that hold at all real points, and perhaps a
 point: nothing rests on the solver having been told of the right things at the right time.
 """
@@ -10,13 +10,16 @@ from __future__ import annotations
 from collections.abc import Callable, Container, Sequence
 from types import TracebackType
 
-from qe.elimination.search.linear_theories import Forms
+from qe.elimination.search.linear_theories import Differences, Forms
 
 Literals = list[int]
 
 
+LinearTheory = Differences | Forms
+
+
 class Propagator:
-    """What the SAT solver calls. The theory hears of literals that are ``needed`` only. ``last``: gives clauses
+    """What the SAT solver calls. The theories hear of literals that are ``needed`` only. ``last``: gives clauses
     against a whole assignment, none where it is a solution; ``prefer`` is called before decisions.
 
     ``lemmas``: the clauses that the solver was told. ``failure``: an error while it called, which ends its work.
@@ -27,13 +30,13 @@ class Propagator:
 
     def __init__(
         self,
-        theory: Forms,
+        theories: Sequence[LinearTheory],
         needed: Container[int],
         check: Callable[[], None],
         last: Callable[[Sequence[int]], list[Literals]],
         prefer: Callable[[], None] = lambda: None,
     ) -> None:
-        self.theory, self.needed = theory, needed
+        self.theories, self.needed = theories, needed
         self.check, self.last, self.prefer = check, last, prefer
         self.lemmas: list[Literals] = []
         self.failure: BaseException | None = None
@@ -43,8 +46,10 @@ class Propagator:
         self._fixed: list[int] = []
         self._next = 0
         self._levels: list[int] = []
-        self._marks: list[int] = []
+        self._marks: list[list[int]] = []
         self._clauses: list[Literals] = []
+        self._implied: list[int] = []
+        self._reasons: dict[int, Callable[[], Literals]] = {}
         self._refuted = False
 
     def __enter__(self) -> None:
@@ -79,7 +84,8 @@ class Propagator:
         self._true.difference_update(self._told[count:])
         del self._told[count:], self._levels[level:]
         if self._next > count:
-            self.theory.back(self._marks[count])
+            for theory, mark in zip(self.theories, self._marks[count], strict=True):
+                theory.back(mark)
             self._next = count
             del self._marks[count:]
         self._refuted = False
@@ -97,11 +103,15 @@ class Propagator:
         return 0
 
     def propagate(self) -> Literals:
-        """No literals, but perhaps a clause against those told."""
-        if self.failure is None and not self._refuted and self._next < len(self._told):
+        """Literals that follow from those told."""
+        if self.failure is None:
             with self:
-                self._look()
+                return self._propagated()
         return []
+
+    def provide_reason(self, literal: int) -> Literals:
+        """The clause by which a literal followed."""
+        return self._lemma([literal, *(-r for r in self._reasons[literal]())])
 
     def check_model(self, model: Sequence[int]) -> bool:
         """Whether an assignment of all variables is a solution."""
@@ -126,18 +136,36 @@ class Propagator:
         self.lemmas.append(clause)
         return clause
 
-    def _look(self) -> None:
-        """Tell the theory what is new; where that contradicts itself, there is a clause for the solver."""
+    def _propagated(self) -> Literals:
+        if self._refuted or self._next == len(self._told):
+            return []
         self.check()
-        mark, conflict = self.theory.mark(), None
-        while conflict is None and self._next < len(self._told):
+        marks = [theory.mark() for theory in self.theories]
+        while self._next < len(self._told):
             literal = self._told[self._next]
-            self._marks.append(mark)
+            self._marks.append(marks)
             self._next += 1
             if literal in self.needed:  # others change nothing
-                conflict = self.theory.tell(literal)
-                mark = self.theory.mark()
-        conflict = self.theory.settle() if conflict is None else conflict
-        if conflict is not None:
-            self._clauses.append(self._lemma([-r for r in conflict]))
-            self._refuted = True
+                if any(self._against(theory.tell(literal)) for theory in self.theories):
+                    return []
+                marks = [theory.mark() for theory in self.theories]
+        if any(self._against(theory.settle()) for theory in self.theories):
+            return []
+        implied = dict[int, None]()
+        for theory in self.theories:
+            for literal, reasons in theory.implied():
+                if literal not in self._true and literal not in implied:
+                    self._reasons[literal] = reasons
+                    implied[literal] = None
+        if not self._levels:  # the solver asks for no reasons of what holds in any case
+            for literal in implied:
+                self.provide_reason(literal)
+        return list(implied)
+
+    def _against(self, conflict: Literals | None) -> bool:
+        """Whether there is a contradiction; the solver is told of it."""
+        if conflict is None:
+            return False
+        self._clauses.append(self._lemma([-r for r in conflict]))
+        self._refuted = True
+        return True
