@@ -15,15 +15,18 @@ from qe.formula.syntax import FALSE, And, Atom, Formula, Relation
 from qe.rules.linear import Pivot, substitute
 from qe.simplifier.simplify import simplify
 
+MOST_CURVED = 3
+"""Variables of conditions that are not linear."""
+
 
 def may_lack_interior(formula: Formula) -> bool:
-    """Whether the formula has several weak inequalities of degree two at most and nothing else: if all are linear, more
-    than variables."""
+    """Whether the formula has several weak inequalities and nothing else: linear ones, more than variables, or some of
+    degree two in so few variables that what follows is proved."""
     if not isinstance(formula, And):
         return False
-    weak = (Relation.LE, Relation.GE)
+    weak, variables = (Relation.LE, Relation.GE), len(formula.free)
     degrees = {a.poly.total_degree if isinstance(a, Atom) and a.relation in weak else 3 for a in formula.args}
-    return max(degrees) < 3 and (2 in degrees or len(formula.args) > len(formula.free))
+    return max(degrees) < 3 and (variables <= MOST_CURVED if 2 in degrees else len(formula.args) > variables)
 
 
 def affine_hull_first(formula: Formula, context: Context, start: object = None) -> Formula:
