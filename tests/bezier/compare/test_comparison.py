@@ -141,8 +141,10 @@ def test_derivations_are_in_the_certificate_and_linked(found):
         assert f'href="{page}"' in render(found, {}) and qe.verify(found.derivations[name].certificate).accepted
 
 
-def test_every_derivation_for_the_example_is_checked(root):
+def test_every_derivation_for_the_example_is_checked(root, monkeypatch):
     """(8*) in the plane was once left unproved: its common divisors over numbers of degree 56 took 16 s."""
+    monkeypatch.setattr(comparison, "COMPARE_SECONDS", 90.0)  # whatever else the machine does
+    monkeypatch.setattr(comparison, "PROOF_SECONDS", 60.0)
     whole = compare(read_problem((root / "examples" / "cubic_joins.toml").read_text()), proofs=True)
     assert not whole.unproved and not whole.unfinished
     assert "the planar region of (8*)" in whole.derivations
