@@ -51,7 +51,7 @@ def affine_hull_first(formula: Formula, context: Context, start: object = None) 
         equations = _solved([*equations, *more], ring)
         rest = simplify(_at(equations, rest), watch=context.budget.check)
     shorter = conj((*(atom(e, Relation.EQ) for e in equations), rest))
-    return context.log.step("simplification", formula, shorter) if length(shorter) < length(formula) else formula
+    return context.log.step("simplification", formula, shorter) if length(shorter)[::-1] < length(formula)[::-1] else formula
 
 
 def _solved(equations: list[Poly], ring: Ring) -> list[Poly]:

@@ -53,6 +53,7 @@ def test_random_polytopes_without_interior_points() -> None:
     ("all t. 0 <= t and t <= 1 -> (x - t)^2 + (y - t^2)^2 <= 1/2", "x = 1/2 and y = 1/2"),
     ("x^2 + y^2 <= 2 and x + y >= 2 and z <= 3", "x = 1 and y = 1 and z <= 3"),
     ("ex t. t = 0 and x^2 + y^2 <= 1 and (x - 3)^2 + y^2 <= 4", "x = 1 and y = 0"),
+    ("x^2 + y^2 + z^2 <= 1 and (x - 2)^2 + y^2 + z^2 <= 1", "x = 1 and y = 0 and z = 0"),
     ("x^2 + y^2 <= 3 and x + y >= 2 and z <= 3", "x^2 + y^2 <= 3 and x + y >= 2 and z <= 3"),
     ("x^2 + y^2 <= 2 and x^2 - y^2 >= 2", None),
 )
