@@ -54,8 +54,9 @@ def find_instance(formula: AnyFormula, **settings: Unpack[Decision]) -> Assignme
 def check_witness(sentence: AnyFormula, witness: Mapping[Any, AnyFormula], **settings: Unpack[Search]) -> bool:
     """Whether existential variables can be given by these polynomials in the variables quantified further outside.
 
-    The polynomials (text, ``Poly`` or SymPy) are substituted and the stronger sentence is decided: False says only that
-    this witness does not work everywhere. Raises ``InputError`` for a name or a polynomial that cannot stand there.
+    The polynomials (text, ``Poly`` or SymPy) are substituted and the stronger sentence is decided: True proves
+    the sentence, False says only that this witness does not work everywhere. Raises ``InputError`` for a name that is
+    not existentially quantified, or a polynomial in variables that are not known at its place.
     """
     from qe.elimination.witness import Term, instantiate
 

@@ -228,8 +228,8 @@ def region(formula: AnyFormula, order: Order = None, **settings: Unpack[ProvedQu
     much harder. For a conjunction of convex quadratic conditions in four or more variables membership, fibres and
     bounds are found by exact optimisation, and the description on request. The limits hold here and for every question
     that is asked of the region. With ``check`` the description is made at once and verified; ``Region.guarantee`` and
-    ``reason`` say what came of it, ``Region.answer`` has the elimination, ``Region.proof`` is for others. Raises
-    ``BudgetExceeded`` at a limit.
+    ``reason`` say what came of it, ``Region.answer`` has the elimination of the quantifiers with its derivation,
+    ``Region.proof`` is for others. Raises ``InputError`` for what cannot be read and ``BudgetExceeded`` at a limit.
     """
     limits, names = limits_of(settings), arguments.names(order)
     whole, check = replace(limits, start=None), settings["check"]
@@ -259,8 +259,9 @@ def verify(
 
     With ``formula``, also whether it is about that question (under ``assuming``), or its negation, up to the names of
     bound variables and the order of conjuncts and disjuncts. With ``core``, a certificate that needs rules of the
-    expert ring (``Certificate.trusts``) is rejected. Past the limit the verdict is neither accepted nor ``decided``.
-    Raises ``InputError`` for what is no certificate, formula or limit.
+    expert ring (``Certificate.trusts`` names them) is rejected at ``core``, one about another question at ``claim``.
+    Past the limit the verdict is neither accepted nor ``decided``. Raises ``InputError`` for what is no certificate,
+    a formula that cannot be read and a limit that is not positive.
     """
     from qe.api.verify import verify as check
 

@@ -63,9 +63,10 @@ def comprehensive_groebner(
     ``Poly``, SymPy). ``variables``: largest first; ``parameters``: by default all other names, sorted. ``order``: of
     the monomials, ``"grevlex"``, ``"grlex"`` or ``"lex"``. ``constants``: names that stand for real algebraic numbers
     (``RealAlgebraic``, SymPy numbers). ``equal`` and ``nonzero``: polynomials in the parameters; segments are made only
-    where the former vanish and none of the latter does; ``assuming`` says the same. ``faithful``: every segment also
-    has elements of the given ideal itself with the same values as its basis. Raises ``InputError``, ``Unable`` where
-    bases grow too large, ``BudgetExceeded``.
+    where the former vanish and none of the latter does; ``assuming`` says the same, and leaves out segments where it
+    cannot hold. ``faithful``: every segment also has elements of the given ideal itself with the same values as its
+    basis. Raises ``InputError`` for what is no polynomial over Q, ``Unable`` where bases grow too large and
+    ``BudgetExceeded`` at a limit.
     """
     limits = limits_of(settings)
     chosen = _ORDERS[arguments.member(order, Order, "order")]

@@ -79,8 +79,10 @@ def minimize(
     multipliers; all others a ``GlobalOptimum`` with all minimisers, by elimination (``method``: "convex" or
     "elimination" takes that way only). ``parameters``: variables that are not optimised over; the answer is a
     ``ParametricOptimum``: value and points as functions of them (``pi`` is always one). That there is no optimum is an
-    answer too: ``status``. With ``check`` its certificate is verified: ``guarantee``, ``reason``. Raises ``Unable``
-    where no proof was found, ``BudgetExceeded`` at a limit.
+    answer too: ``status`` says ``UNBOUNDED`` or ``INFEASIBLE``, and ``value`` is None. With ``check`` its certificate
+    is verified: ``guarantee`` is ``CHECKED``, or ``reason`` says why not; an elimination comes with its derivation
+    (``answer``). Raises ``InputError`` for what cannot be read, ``Unable`` where no proof was found and
+    ``BudgetExceeded`` at a limit.
     """
     return _best(1, objective, constraints, parameters, method, settings)
 

@@ -49,8 +49,8 @@ def solve(formula: AnyFormula, variables: Any = None, **settings: Unpack[ProvedQ
 
     ``variables``: those to solve for, in their order; each is expressed in terms of the parameters and of the variables
     before it. Without them x, y, z (perhaps with an index) are meant, with a note; without these all free variables.
-    With ``check`` the decomposition and the text are proved: ``guarantee``. Raises ``InputError``, and ``Unable`` where
-    the elimination of quantifiers does.
+    Quantifiers are eliminated first. With ``check`` the decomposition and the text are proved: ``guarantee``.
+    Raises ``InputError`` for what cannot be read, ``Unable`` (``BudgetExceeded`` at a limit) where elimination does.
     """
     asked = solved_for(formula) if variables is None and isinstance(formula, str) else variables
     limits, wanted = limits_of(settings), arguments.names(asked, "variables")

@@ -82,8 +82,9 @@ def optimised(
 class Solver:
     """Formulas that are to hold together, of any kind that ``qe.decide`` takes; free variables are unknowns.
 
-    Settings are those of ``qe.find``, for every check. After ``check()`` that was ``"sat"`` there is a ``model()``,
-    after ``"unsat"`` a ``core()``. Objectives are optimised in their order, each where those before it are optimal.
+    Settings are those of ``qe.find``, for every check; with ``check`` the last ``answer`` has a certificate. After
+    ``check()`` that was ``"sat"`` there is a ``model()``, after ``"unsat"`` a ``core()``. Objectives are optimised in
+    their order, each where those before it are optimal; the model is such a point where the values are taken.
     """
 
     answer: Answer | None

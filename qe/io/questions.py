@@ -44,6 +44,8 @@ _GIVEN = re.compile(
     rf"(?:let|if|suppose(?: that)?|given(?: that)?(?! any)|assume(?: that)?|for(?: all| any| every)?(?! wh)) (.+?)"
     rf"(?: ?[.,:]? (?:then )?{_PROVE}| , is(?: it true that)?) (.+)"
 )
+_SHOWN = re.compile(rf"(?:(?:if|suppose|assume|given|let)(?: that)? )?(.+?) ?[.,:] {_PROVE} (.+)")
+"""What is to be proved behind what is supposed."""
 _IF_THEN = re.compile(r"if (.+?) ?,? then (.+)")
 _SORTED = re.compile(
     rf"({F}) (?:(?:be|are|is|denote) )?(?:any |two |three |four )*(distinct )?({SIGN}\b)? ?(?:numbers|constant)?"
@@ -64,6 +66,9 @@ _AND = re.compile(r" ?,? ?\b(?:(?:and )?(?:with|such that|satisfied)|, and)\b ?:
 _NOT_REAL = re.compile(
     r"(?i)\b(?:positive|negative|all|any|some|are|be|an|for|the|distinct|of)\s+(integers?|natural\s+numbers?|rationals?)\b"
 )
+_PART = r"(?:(?<!\S)(?<!, )|(?<=[.:;]))\(?(?:{})\)\s+(?!and\b|or\b|in\b)[a-z]{{2,}}\s"
+_PARTS = re.compile(rf"(?is){_PART.format('a|i')}.*{_PART.format('b|ii')}")
+"""What a question in two parts has: (a) and (b) with a word behind each."""
 _FOR_ALL = rf",? ?for (?:all|any|every) (?:values of )?(?:constant )?({F})"
 _EVERY = re.compile(rf"{_FOR_ALL} ?[,:] ?(.+)|(.+?) {_FOR_ALL}")
 _UNNAMED = re.compile(r"\bfor (?:all|every|any) values$")
@@ -128,6 +133,8 @@ def plainly(text: str) -> Question:
         return _called(call[1], call[2])
     if sort := _NOT_REAL.search(short):
         raise InputError(f"all variables are real, {sort[1]} cannot be asked for")
+    if _PARTS.search(short):
+        raise InputError("this question has parts (a), (b): ask one part at a time")
     said = Sentence(short)
     question = _read(said, " and ".join(filter(None, (_premise(said, where) for where in said.where))))
     is_clear = question is not None and not _STRAY.search(question.formula)
@@ -137,28 +144,23 @@ def plainly(text: str) -> Question:
 def _read(said: Sentence, known: str) -> Question | None:
     """What a sentence asks under what is ``known``; None where that is not clear."""
     words = said.words
+    if (shown := _SHOWN.fullmatch(words)) and (implied := _implied(said, shown[1], shown[2], known)):
+        return Question(implied)
     given = _GIVEN.fullmatch(words) or _IF_THEN.fullmatch(words)
     if given and (given.re is _GIVEN or _premise(said, given[1]) != said[given[1]]):
         return Question(_closed(_claim(said[given[2]]), _both(known, _premise(said, given[1]))))
     begins = _ASKED.fullmatch(words)
     rest = begins["rest"] if begins else words
     names = tuple(said.names(begins["for"] or begins["sought"] or "")) if begins else ()
-    for name in names:
-        said.formulas[:] = [re.sub(rf"(?<!\w)({re.escape(name)})\(", r"\1*(", one) for one in said.formulas]
+    _name_factors(said, names)
     if unnamed := _UNNAMED.search(rest):
         others = {*_names(said[rest[: unnamed.start()]])}.difference(names)
         if len(others) != 1:
             raise InputError(f"{unnamed[0]}: the name of a variable expected behind it, as in for all real values of x")
         rest = f"{rest[: unnamed.start()]}for all {others.pop()}"
-    forms = (_separated, _counted, _meeting, _above, _always)
     every = _EVERY.fullmatch(rest) if begins and begins["proved"] else None
-    claimed = (every[2] or every[3]) if every else rest
     names = tuple(said.names(every[1] or every[4])) if every else names
-    for parts in ([claimed], claimed.split(" and ")):
-        claims = [next(filter(None, (form(said, part, names) for form in forms)), "") for part in parts]
-        if all(claims):
-            break
-    formula = _both(*claims) if all(claims) else None
+    formula = _conditions(said, (every[2] or every[3]) if every else rest, names)
     if formula is None and _TRIANGLE.match(rest):
         formula = _premise(said, rest)
     if begins and begins["proved"]:
@@ -168,6 +170,22 @@ def _read(said: Sentence, known: str) -> Question | None:
     if formula is not None:
         _no_other_variables(known, formula)
     return None if formula is None else Question(_both(known, formula), names)
+
+
+def _name_factors(said: Sentence, names: Iterable[str]) -> None:
+    """``k(x - 1)`` is a product where k is one of the names."""
+    for name in names:
+        said.formulas[:] = [re.sub(rf"(?<!\w)({re.escape(name)})\(", r"\1*(", one) for one in said.formulas]
+
+
+def _conditions(said: Sentence, text: str, sought: tuple[str, ...]) -> str | None:
+    """What is said of roots, curves and signs, as a formula; None where a part of it says something else."""
+    forms = (_separated, _counted, _meeting, _above, _always)
+    for parts in ([text], text.split(" and ")):
+        claims = [next(filter(None, (form(said, part, sought) for form in forms)), "") for part in parts]
+        if all(claims):
+            return _both(*claims)
+    return None
 
 
 def _both(*parts: str) -> str:
@@ -182,6 +200,21 @@ def _closed(claim: str, given: str = "") -> str:
     bound = _bound(whole)
     names = [name for name in _names(whole) if name not in bound]
     return f"all {', '.join(names)}. {whole}" if names else whole
+
+
+def _implied(said: Sentence, supposed: str, claim: str, known: str) -> str | None:
+    """That a claim holds where something is so of roots or curves: for all values of its variables, which no quantifier
+    of what is supposed may bind; None otherwise."""
+    whole = _claim(said[claim])
+    names = {*_names(whole)} - _bound(whole)
+    _name_factors(said, names)
+    condition = _conditions(said, supposed, tuple(names))
+    made = products(f"({condition}) -> ({whole})")
+    letters = {letter for name in names for letter in (name if name in made else [name])}
+    if condition is None or letters & _bound(condition):
+        return None
+    _no_other_variables(known, condition)
+    return _closed(_claim(said[claim]), _both(known, condition))
 
 
 def _bound(text: str) -> set[str]:

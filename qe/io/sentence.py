@@ -84,7 +84,7 @@ PLACE = (
     rf"(?:that )?(?:lie )?(?:in (?:(?:open|closed) )?(?:interval )?({F})|(?:in )?between ({F}) and ({F})"
     rf"|(greater|less) than ({F}))"
 )
-_VALUES = r"(?:(?:all|set|range|possible|exact|two|values|constant|numbers|of|that|for|on|which|condition) )*"
+_VALUES = r"(?:(?:all|set|range|possible|exact|two|distinct|values|constant|numbers|of|that|for|on|which|condition) )*"
 THINGS = rf"(?:straight )?(?:{'|'.join(_NOUNS.split())}|constant|condition)(?: of)? :?"
 _FOUND = rf"(?:quadratic )?{F}"
 _NOUN = rf"(?:straight )?(?P<noun>{_NOUNS.replace(' ', '|')})"
@@ -115,7 +115,8 @@ _RULES = (
     (r"\b(?:may|must|will|can) be\b|\bbe always\b", "is"),
     (r" [.,] giving answers? in .*? form| to §\d+ decimal places", ""),
     (rf"\b{THINGS} ?(?={F})", ""),
-    (rf"({F}) , (?=has\b)", r"\1 "),
+    (rf"({F}) , (?=has\b|tangent to\b)", r"\1 "),
+    (rf" ?,? (?:if|when|then) values? of ({F}) (?:is|are)$", r" find \1"),
     (r"^find what values", "for what values"),
     (rf"^(?:for|at) (?:which|what) {_VALUES}({F}) ,? ?(?:does|do|is|are|will|can)?\b", r"find \1 such that "),
     (rf"^find condition (?:on {F} )?(?:(?:so|such) that|for|(?:for|under) which) ", ""),
@@ -138,7 +139,10 @@ _RULES = (
     (rf"^(?:(?:what is|find) |(?=range|set|values)){_VALUES}(?={F} (?:such that|for|if|with|does|is)\b)", "find "),
     (rf"\b(?:find|what) {_VALUES}({F})(?: (?:can|may|are) (?:possible|take|has))?(?= [.]?$|$)", r"find \1"),
     (rf"^find ({F}) for ({F}) with (?=.*root)", r"find \1 such that \2 has "),
-    (rf"^(?:(?:if|given|suppose)(?: that)? )?(?!find|for\b)(.+?) ?[.,]? find ({F})$", r"find \2 such that \1"),
+    (
+        rf"^(?:(?:if|given|suppose)(?: that)? )?(?!find|for\b)(.+?) ?[.,]? (?:then )?find ({F})$",
+        r"find \2 such that \1",
+    ),
     (
         rf"^(?:for )?({_FOUND}) [.,] find {_VALUES}({F}) such that (?:it |{THINGS})?(?=is|has)",
         r"find \2 such that \1 ",
@@ -168,6 +172,7 @@ _RULES = (
 LIST = re.compile(rf"{LISTED}(?:\s*,\s*{LISTED})*")
 _OF_TWO = re.compile(rf"\b(product|sum) of ({F})")
 _OPERATOR = re.compile(r"[-+*/^=<>(,]\s*$")
+"""What an ``a`` stands behind that is a variable: but ``y = mx, a tangent to`` has none."""
 
 
 class Sentence:
@@ -190,7 +195,8 @@ class Sentence:
                 or word in SHORT.split()
                 or (len(word) > 2 and word.isalpha() and not self._is_formula(word))
             )
-            if is_word or (piece["ARTICLE"] and not _OPERATOR.search(segment)):
+            is_tangent = text.startswith(" tangent to", piece.end())
+            if is_word or (piece["ARTICLE"] and not _OPERATOR.search(segment.rstrip(" ,") if is_tangent else segment)):
                 words += [*self._segment(segment), VOCABULARY.get(word, word).strip(",")]
                 segment = ""
             else:

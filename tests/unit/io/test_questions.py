@@ -304,3 +304,47 @@ def test_words_that_are_not_understood_are_refused_in_one_line_that_says_so() ->
         text.read("A line with slope m passes through the point of the curve y = x^2 that is nearest. Find m.")
     with pytest.raises(qe.InputError, match="as in: the least value of x"):
         qe.minimize("Find the least value of x^2 and the values of x at which it is reached")
+
+
+@pytest.mark.parametrize(
+    ("typed", "is_true"),
+    (
+        ("The equation x^2 + kx + 1 = 0 has two distinct real roots. Show that k^2 > 4.", True),
+        ("The equation x^2 + kx + 1 = 0 has two distinct real roots. Show that k > 2.", False),
+        ("Given that x^2 + kx + 1 = 0 has no real roots, show that k^2 < 4.", True),
+        ("The line y = kx - 1 and the curve y = x^2 meet at two points. Show that k^2 > 4.", True),
+        ("If x^2 + a is always positive, prove that a > 0.", True),
+        ("If x^2 + a is always positive, prove that a > 1.", False),
+        (
+            "A curve has equation y = 2x^2 - x - 1 and a line has equation y = k(2x - 3), where k is a constant."
+            " The curve and the line intersect at two distinct points. Show that 4k^2 - 20k + 9 > 0.",
+            True,
+        ),
+    ),
+)
+def test_what_is_proved_of_roots_or_curves_that_are_supposed(typed: str, is_true: bool) -> None:
+    assert qe.decide(typed) is is_true
+
+
+@pytest.mark.parametrize("claim", ("x > 0", "kx > 0"))
+def test_a_claim_about_a_root_that_has_no_name_is_refused(claim: str) -> None:
+    with pytest.raises(qe.ParseError, match="not understood"):
+        text.read(f"The equation x^2 + kx + 1 = 0 has two solutions for x. Show that {claim}.")
+
+
+@pytest.mark.parametrize(
+    "typed",
+    (
+        "The line y = mx + 1 is a tangent to the curve y^2 = 4x if the value of m is",
+        "If the line y = mx + 1 is a tangent to the parabola y^2 = 4x then find the value of m",
+        "For what value of m is the line y = mx + 1, a tangent to the curve y^2 = 4x?",
+        "Find the two distinct values of m for which the line y = mx + 1 is a tangent to the curve y^2 = 4x.",
+    ),
+)
+def test_tangents_as_they_are_asked_for(typed: str) -> None:
+    assert str(qe.solve(typed)) == "m = 1"
+
+
+def test_a_question_in_parts_is_refused_with_a_word_about_its_parts() -> None:
+    with pytest.raises(qe.InputError, match="ask one part at a time"):
+        text.read("x^2 + kx + 8 = k has no real roots. (a) Show that k^2 + 4k < 32. (b) Hence find the values of k.")
