@@ -27,7 +27,7 @@ from qe.proof.step import Nested, Step
 from qe.simplifier.simplify import simplify
 
 CONSISTENT_WORK, SHORT_WORK = 5_000, 3_000
-"""Units of work for the question whether the assumptions can hold, and for one way to a shorter answer."""
+"""Units of work for the question whether the assumptions, or exceptions, can hold, and for a decomposition."""
 
 PLAIN_WORK = 3_000
 """Units of work, with twice that of the question under the assumptions, for the question without them."""
@@ -47,7 +47,7 @@ def answered_assuming(
 
     Raises ``Unable`` where no method ends.
     """
-    nothing = _refuted(known, options, budget)
+    nothing = _refuted(known, options.with_(method=Method.AUTO), budget)
     if nothing is not None:
         return Known(question, _whatever(question, known, nothing), known)
     if not question.free:
@@ -81,14 +81,14 @@ def simplified(question: Formula, known: Formula, options: Options, budget: Budg
 
 def can_hold(known: Formula, options: Options, budget: Budget) -> bool:
     """Whether the assumptions hold somewhere; True also where that takes too much work to tell."""
-    return _refuted(known, options, budget) is None
+    return _refuted(known, options.with_(method=Method.AUTO), budget) is None
 
 
 def _refuted(known: Formula, options: Options, budget: Budget) -> Nested | None:
-    """How it follows that the assumptions hold nowhere; None where they do, or little work does not tell."""
+    """How it follows that a formula holds nowhere; None where it does somewhere, or little work does not tell."""
     sentence = exists(known.free, known)
     try:
-        outcome = outcome_for(sentence, options.with_(method=Method.AUTO), budget.part(CONSISTENT_WORK))
+        outcome = outcome_for(sentence, options, budget.part(CONSISTENT_WORK))
     except Unable:
         budget.check("assumptions")
         return None
@@ -165,15 +165,11 @@ def shortened_under(formula: Formula, known: Formula, question: Formula, context
 
 def _constant(formula: Formula, known: Formula, question: Formula, context: Context) -> Formula:
     """TRUE or FALSE where the assumptions leave nothing else."""
-    assert context.decide is not None
     for value in (TRUE, FALSE):
         wrong = conj((known, nnf(formula, negate=value == TRUE)))
-        sentence = exists(wrong.free, wrong)
-        if not is_cheap_sentence(sentence):
-            continue
-        outcome = context.decide(sentence, context.options, context.budget.part(SHORT_WORK))
-        if outcome.formula == FALSE:
-            evidence = {"proof": {"exceptions": [outcome.nested(sentence)]}}
+        cheap = is_cheap_sentence(exists(wrong.free, wrong))
+        if cheap and (nothing := _refuted(wrong, context.options, context.budget)):
+            evidence = {"proof": {"exceptions": [nothing]}}
             return context.log.step("constant", formula, value, context=known, evidence=evidence)
     return formula
 

@@ -51,7 +51,9 @@ def affine_hull_first(formula: Formula, context: Context, start: object = None) 
         equations = _solved([*equations, *more], ring)
         rest = simplify(_at(equations, rest), watch=context.budget.check)
     shorter = conj((*(atom(e, Relation.EQ) for e in equations), rest))
-    return context.log.step("simplification", formula, shorter) if length(shorter)[::-1] < length(formula)[::-1] else formula
+    if length(shorter)[::-1] >= length(formula)[::-1]:
+        return formula
+    return context.log.step("simplification", formula, shorter)
 
 
 def _solved(equations: list[Poly], ring: Ring) -> list[Poly]:
