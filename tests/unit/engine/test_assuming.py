@@ -34,6 +34,7 @@ QUADRATIC = "ex x. a*x^2 + b*x + c = 0"
     ("a*b > 0", ["a > 0"], "b > 0"),
     ("a > 3", "a > 0", "a > 3"),
     ("ex x. x^2 = 2", "a > 0", "true"),
+    ("a*c <= b*d", "0 < a and a < b and 0 < c and c < d", "true"),  # only deciding finds that nothing is excepted
 )
 @pytest.mark.filterwarnings("ignore::qe.DoubtfulInput")
 def test_what_the_assumptions_say_is_not_repeated(text: str, assumed: object, said: str) -> None:
