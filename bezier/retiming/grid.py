@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from fractions import Fraction
 from functools import cached_property
 from itertools import accumulate, pairwise
-from math import comb
+from math import comb, hypot
 from typing import Any
 
 import numpy as np
@@ -151,7 +151,7 @@ class _Direction:
     def of(row: Row, at: Fraction, inwards: Fraction, size: float) -> _Direction:
         """``inwards``: towards the other end of the piece; ``size``: of q' on the piece."""
         value = np.array([float(p(at)) for p in row])
-        speed = float(np.linalg.norm(value))
+        speed = hypot(*value)
         is_moving = speed > SMOOTH * size
         if not is_moving or not size:
             near = [p(at + inwards / NEAR) for p in row]
@@ -159,7 +159,7 @@ class _Direction:
             if not largest:
                 raise InputError("path: expected one that moves everywhere, found a piece that is one point")
             value = np.array([float(x / largest) for x in near])
-        return _Direction(speed, is_moving, value / np.linalg.norm(value))
+        return _Direction(speed, is_moving, value / hypot(*value))
 
 
 def _zeros(row: Row, h: Fraction) -> list[Fraction]:
