@@ -181,5 +181,5 @@ def terms_about(
                 moved[key] = moved.get(key, 0) + c * comb(n, k) * middle ** (n - k) * half**k
         rest = moved
     level = rest.pop((0, 0, 0), 0)
-    slopes = [rest.pop(key, 0) / half for key, half in zip(UNITS, halves, strict=False)]
+    slopes = [rest.pop(key, 0) / (half or 1) for key, half in zip(UNITS, halves, strict=False)]  # 0 where it is flat
     return slopes, [sum(map(operator.mul, slopes, subtract(p, middles)), level) for p in corners], rest

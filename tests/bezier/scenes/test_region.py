@@ -32,6 +32,7 @@ def formula(text: str) -> dict[str, Any]:
     ("a gap of a thousandth", [formula(f"{STRIP} & y <= 7"), formula(f"{STRIP} & y >= 7.001")], False),
     ("a quartic and a disc", [formula("(x-5)^4 + (y-2)^4 <= 20"), {**DISC, "radius": "3.45"}], True),
     ("a smaller disc", [formula("(x-5)^4 + (y-2)^4 <= 20"), {**DISC, "radius": "2.9"}], False),
+    ("a segment between start and goal, in boxes without height", [formula("y = 5 & (x - 5)^2 <= 1")], False),
     ("what has quantifiers", [formula("E u. u^2 <= 1 & (x - 5 - u)^2 <= 1 & y >= 0")], True),
 )
 def test_formulas_are_in_the_way(what: str, listed: list[Any], blocked: bool) -> None:
