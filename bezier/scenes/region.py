@@ -155,10 +155,10 @@ def _roughly(condition: Constraint, place: Any) -> tuple[Any, Any]:
 
 def _is_nearly_in(scene: Scene, place: Any) -> bool:
     """Whether a point is in the way, or nearly."""
+    near = float(max(b - a for a, b in zip(scene.low, scene.high, strict=True))) / 1000  # next to the zeros of x, too
 
     def holds(condition: Constraint) -> bool:
-        value, size = _roughly(condition, place)
-        return bool(value >= -NEARLY * size)
+        return bool(_roughly(condition, place)[0] >= -NEARLY * _roughly(condition, abs(place) + near)[1])
 
     return any(all(map(holds, piece)) for body in scene.bodies for piece in body.pieces) or not all(
         holds(c) for part in scene.domain for piece in part.pieces for c in piece
