@@ -24,8 +24,7 @@ from qe.proof.entry import Entry, Json, formula_to_json, poly_to_text
 def certified(
     asked: ParametricSystem, classification: RealRootClassification, budget: Budget
 ) -> RealRootClassification:
-    """The classification with its certificate, which the checker has accepted. Raises ``Unable`` where
-    a sentence about the parameters is not proved, or beyond the limits of the checker."""
+    """The classification with its certificate, which the checker has accepted; ``Unable`` without one."""
     payload = _question(asked, classification)
     question, classes, _ = read_question(Entry(payload, "payload"))
     sentences = question.sentences(classes, lambda: budget.check("certificate"))

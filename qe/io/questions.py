@@ -45,7 +45,6 @@ _GIVEN = re.compile(
     rf"(?: ?[.,:]? (?:then )?{_PROVE}| , is(?: it true that)?) (.+)"
 )
 _SHOWN = re.compile(rf"(?:(?:if|suppose|assume|given|let)(?: that)? )?(.+?) ?[.,:] {_PROVE} (.+)")
-"""What is to be proved behind what is supposed."""
 _IF_THEN = re.compile(r"if (.+?) ?,? then (.+)")
 _SORTED = re.compile(
     rf"({F}) (?:(?:be|are|is|denote) )?(?:any |two |three |four )*(distinct )?({SIGN}\b)? ?(?:numbers|constant)?"
@@ -61,7 +60,7 @@ _LEAN = re.compile(
     re.DOTALL,
 )
 _BINDER = re.compile(r"[({]([^(){}:]*):\s*((?:[^(){}]|\([^()]*\))*)[)}]")
-_AND = re.compile(r" ?,? ?\b(?:(?:and )?(?:with|such that|satisfied)|, and)\b ?:? ?")
+_AND = re.compile(r" ?,? ?\b(?:and )?(?:with|such that|satisfied)\b ?:? ?| ?, and\b ?")
 
 _NOT_REAL = re.compile(
     r"(?i)\b(?:positive|negative|all|any|some|are|be|an|for|the|distinct|of)\s+(integers?|natural\s+numbers?|rationals?)\b"
@@ -152,7 +151,6 @@ def _read(said: Sentence, known: str) -> Question | None:
     begins = _ASKED.fullmatch(words)
     rest = begins["rest"] if begins else words
     names = tuple(said.names(begins["for"] or begins["sought"] or "")) if begins else ()
-    _name_factors(said, names)
     if unnamed := _UNNAMED.search(rest):
         others = {*_names(said[rest[: unnamed.start()]])}.difference(names)
         if len(others) != 1:
@@ -161,8 +159,7 @@ def _read(said: Sentence, known: str) -> Question | None:
     every = _EVERY.fullmatch(rest) if begins and begins["proved"] else None
     names = tuple(said.names(every[1] or every[4])) if every else names
     formula = _conditions(said, (every[2] or every[3]) if every else rest, names)
-    if formula is None and _TRIANGLE.match(rest):
-        formula = _premise(said, rest)
+    formula = formula or (_premise(said, rest) if _TRIANGLE.match(rest) else None)
     if begins and begins["proved"]:
         return Question(_closed(formula or _claim(said[rest]), known))
     if formula is None and begins:
@@ -172,14 +169,11 @@ def _read(said: Sentence, known: str) -> Question | None:
     return None if formula is None else Question(_both(known, formula), names)
 
 
-def _name_factors(said: Sentence, names: Iterable[str]) -> None:
-    """``k(x - 1)`` is a product where k is one of the names."""
-    for name in names:
-        said.formulas[:] = [re.sub(rf"(?<!\w)({re.escape(name)})\(", r"\1*(", one) for one in said.formulas]
-
-
 def _conditions(said: Sentence, text: str, sought: tuple[str, ...]) -> str | None:
-    """What is said of roots, curves and signs, as a formula; None where a part of it says something else."""
+    """What is said of roots, curves and signs, as a formula; None where a part of it says something else. Behind a name
+    that is sought brackets are a factor: ``k(x - 1)``."""
+    for name in sought:
+        said.formulas[:] = [re.sub(rf"(?<!\w)({re.escape(name)})\(", r"\1*(", one) for one in said.formulas]
     forms = (_separated, _counted, _meeting, _above, _always)
     for parts in ([text], text.split(" and ")):
         claims = [next(filter(None, (form(said, part, sought) for form in forms)), "") for part in parts]
@@ -207,11 +201,9 @@ def _implied(said: Sentence, supposed: str, claim: str, known: str) -> str | Non
     of what is supposed may bind; None otherwise."""
     whole = _claim(said[claim])
     names = {*_names(whole)} - _bound(whole)
-    _name_factors(said, names)
     condition = _conditions(said, supposed, tuple(names))
     made = products(f"({condition}) -> ({whole})")
-    letters = {letter for name in names for letter in (name if name in made else [name])}
-    if condition is None or letters & _bound(condition):
+    if condition is None or {*"".join(name if name in made else "" for name in names), *names} & _bound(condition):
         return None
     _no_other_variables(known, condition)
     return _closed(_claim(said[claim]), _both(known, condition))
@@ -390,7 +382,7 @@ def _meeting(said: Sentence, text: str, sought: tuple[str, ...]) -> str | None:
     first, second = said[meeting[1]], said[meeting[4]]
     for graph, other in ((first, second), (second, first)):
         y, _, value = (part.strip() for part in graph.partition("="))
-        if re.fullmatch(WORD, y) and y not in _names(value) and "=" in other:
+        if re.fullmatch(r"[^\W\d_]\d*", y) and y not in _names(value) and "=" in other:
             left, _, right = other.partition("=")
             solved = _equation(f"({left}) - ({right}) + 0*({value})", (*sought, y))
             if solved is None:
@@ -399,6 +391,9 @@ def _meeting(said: Sentence, text: str, sought: tuple[str, ...]) -> str | None:
             if how != "meet":
                 return None if many else _tangent(y, value, other, x)
             return f"{_many(many)} {x}. ex {y}. {first} and {second}" if many else f"ex {x}, {y}. {first} and {second}"
+    is_plain = how == "meet" and many in (None, "no") and not {"x", "y"} & {*sought}
+    if is_plain and {"x", "y"} <= {*_names(first)} & {*_names(second)} and all("=" in one for one in (first, second)):
+        return f"{'not ' if many else ''}(ex x, y. {first} and {second})"
     return None
 
 

@@ -21,12 +21,12 @@ _NOUNS = (
     " parabola ellipse hyperbola graph"
 )
 VOCABULARY = kinds("""
-find find determine calculate
+find find determine calculate compute
 prove prove show verify
 has has have having
 root root solution zero
 roots roots zeros zeroes solutions
-meet meet meets intersect intersects cut cuts
+meet meet meets intersect intersects cut cuts cross crosses
 touch touch touches
 give give gives make makes
 points point points
@@ -68,6 +68,7 @@ _TYPED: tuple[tuple[str, str | Callable[[re.Match[str]], str]], ...] = (
     (r"\b([Nn])on[-\s]+(?=negative|zero|positive)", r"\1on"),
     (r"\bs\.\s?t\.", "such that"),
     (r"\+ve\b", "positive"),
+    (r",\s*a(?=\s+tangent\s+to\b)", ""),
     (r"\bx\s*-\s*axis\b", "y = 0"),
     (r"(?i)\bprove\s*/\s*disprove\b", "prove"),
     (r",?\s*\(\s*\w+\s*(?:∈|\bin\b)\s*(?:R|ℝ)\s*\)", ""),
@@ -115,10 +116,10 @@ _RULES = (
     (r"\b(?:may|must|will|can) be\b|\bbe always\b", "is"),
     (r" [.,] giving answers? in .*? form| to §\d+ decimal places", ""),
     (rf"\b{THINGS} ?(?={F})", ""),
-    (rf"({F}) , (?=has\b|tangent to\b)", r"\1 "),
+    (rf"({F}) , (?=has\b)", r"\1 "),
     (rf" ?,? (?:if|when|then) values? of ({F}) (?:is|are)$", r" find \1"),
     (r"^find what values", "for what values"),
-    (rf"^(?:for|at) (?:which|what) {_VALUES}({F}) ,? ?(?:does|do|is|are|will|can)?\b", r"find \1 such that "),
+    (rf"^(?:for|at) (?:which|what) {_VALUES}({F}) ,? ?(?:(?:does|do|is|are|will|can)\b)?", r"find \1 such that "),
     (rf"^find condition (?:on {F} )?(?:(?:so|such) that|for|(?:for|under) which) ", ""),
     (r"^(?:(?:when )?does|when do|under (?:what|which) condition(?: on §\d+)? (?:does|do)) ", ""),
     (rf"\bfind condition (?:that is satisfied by|on) ({F})", r"find \1"),
@@ -126,13 +127,14 @@ _RULES = (
     (rf"\bgive ({_FOUND}) (?={COUNT})", r"\1 has "),
     (rf",? ?(?:where|if) {F} (?:is|are)$|^to (?={BEST})", ""),
     (rf"^(find {_VALUES}{F}) , (?=such that|for which)", r"\1 "),
+    (r"\bmeet or (?:meet|touch)\b", "meet"),
     (r"\bgiven (?:also|instead) that\b", "given that"),
     (r"(?<=[.,] )(?:hence|thus|therefore)(?: or otherwise)? ,? ?(?=(?:find|prove)\b)", ""),
     (
         rf"({_FOUND}) has one ({SIGN}) root and (?:one|other|another) ({SIGN})(?: root)?",
         r"\1 has one \2 root and \1 has one \3 root",
     ),
-    (rf"(?<!all )\broots of ({_FOUND}) are(?= for\b| [.,]|$)", r"\1 has both roots"),
+    (rf"(?<!all )\broots? of ({_FOUND}) are(?= for\b| [.,]|$)", r"\1 has both roots"),
     (rf"\bthen ({BEST} (?:possible )?(?:values )?of .+?) is$", r"find \1"),
     (r"\b(?:so that|in order that|(?<=\d )for which|satisfy)\b", "such that"),
     (rf"^(?:find )?{_VALUES}({F}) such that (.+) (?:is|are) ?:?$", r"find \1 such that \2"),
@@ -172,7 +174,6 @@ _RULES = (
 LIST = re.compile(rf"{LISTED}(?:\s*,\s*{LISTED})*")
 _OF_TWO = re.compile(rf"\b(product|sum) of ({F})")
 _OPERATOR = re.compile(r"[-+*/^=<>(,]\s*$")
-"""What an ``a`` stands behind that is a variable: but ``y = mx, a tangent to`` has none."""
 
 
 class Sentence:
@@ -195,8 +196,7 @@ class Sentence:
                 or word in SHORT.split()
                 or (len(word) > 2 and word.isalpha() and not self._is_formula(word))
             )
-            is_tangent = text.startswith(" tangent to", piece.end())
-            if is_word or (piece["ARTICLE"] and not _OPERATOR.search(segment.rstrip(" ,") if is_tangent else segment)):
+            if is_word or (piece["ARTICLE"] and not _OPERATOR.search(segment)):
                 words += [*self._segment(segment), VOCABULARY.get(word, word).strip(",")]
                 segment = ""
             else:

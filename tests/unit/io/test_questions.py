@@ -91,7 +91,7 @@ from qe.io.questions import plainly
         ("the quadratic equation x^2+bx+c=0 has no real roots", "b^2 < 4*c"),
         ("Prove that (a+b+c)(1/a+1/b+1/c) >= 9 for positive a, b, c", "true"),
         ("prove that x^2 - 2x + 1 >= 0 for real numbers x", "true"),
-        ("x + y = k meets x - y = 1", "x + y = k meets x - y = 1"),
+        ("xy = k meets x - y = 1", "xy = k meets x - y = 1"),
         (r"y = x + \e is tangent to y = x^2", r"y = x + \e is tangent to y = x^2"),
         ("for which m are x^2 + mx + 1 = 0 and x^2 + x + m = 0 both solvable?", "m <= -2"),
         ("the range of values of k for which the expression kx - x^2 - 1 will be negative for all real x", "k^2 < 4"),
@@ -324,6 +324,27 @@ def test_words_that_are_not_understood_are_refused_in_one_line_that_says_so() ->
 )
 def test_what_is_proved_of_roots_or_curves_that_are_supposed(typed: str, is_true: bool) -> None:
     assert qe.decide(typed) is is_true
+
+
+@pytest.mark.parametrize(
+    ("typed", "meant"),
+    (
+        (
+            "If the line y+2x=p does not intersect the curve y^2=x+p , find the range of values of p.",
+            "not ex x, y. y + 2*x = p and y^2 = x + p",
+        ),
+        (
+            "The line y = 3x - p does not cross or touch the curve y = px^2, where p is a constant. Find the values of p.",
+            "not ex x, y. y = 3*x - p and y = p*x^2",
+        ),
+        (
+            "For which values of m, the line y = 2x - 4 is tangent to the curve y = (m + 3)x^2 + mx?",
+            "ex x. (m + 3)*x^2 + m*x = 2*x - 4 and 2*(m + 3)*x + m = 2",
+        ),
+    ),
+)
+def test_lines_in_any_form(typed: str, meant: str) -> None:
+    assert qe.equivalent(typed, meant)
 
 
 @pytest.mark.parametrize("claim", ("x > 0", "kx > 0"))
