@@ -500,4 +500,4 @@ def _typed(text: str) -> str:
     text = re.sub(r"(?<!\\)\\[\[\]()]", "$", text) if re.search(r"[A-Za-z]{2}[^\\]*\\[\[(]", text) else text
     if "$" not in text or not re.search(r"[A-Za-z]", re.sub(r"\$[^$]*\$", "", text)):
         return text
-    return re.sub(r"\$+([^$]*)\$+", lambda inside: as_text(inside[1]), text)
+    return re.sub(r"\$+([^$]*?)([\s.,;?]*)\$+", lambda inside: as_text(inside[1]) + inside[2], text)

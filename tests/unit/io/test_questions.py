@@ -341,6 +341,10 @@ def test_what_is_proved_of_roots_or_curves_that_are_supposed(typed: str, is_true
             "For which values of m, the line y = 2x - 4 is tangent to the curve y = (m + 3)x^2 + mx?",
             "ex x. (m + 3)*x^2 + m*x = 2*x - 4 and 2*(m + 3)*x + m = 2",
         ),
+        (
+            "For which values of $m$ is the line $y=2x-4$ tangent to the curve $y=(m+3)x^2+mx ?$",
+            "ex x. (m + 3)*x^2 + m*x = 2*x - 4 and 2*(m + 3)*x + m = 2",
+        ),
     ),
 )
 def test_lines_in_any_form(typed: str, meant: str) -> None:
