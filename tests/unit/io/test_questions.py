@@ -334,7 +334,8 @@ def test_what_is_proved_of_roots_or_curves_that_are_supposed(typed: str, is_true
             "not ex x, y. y + 2*x = p and y^2 = x + p",
         ),
         (
-            "The line y = 3x - p does not cross or touch the curve y = px^2, where p is a constant. Find the values of p.",
+            "The line y = 3x - p does not cross or touch the curve y = px^2, where p is a constant. "
+            "Find the values of p.",
             "not ex x, y. y = 3*x - p and y = p*x^2",
         ),
         (
