@@ -44,6 +44,13 @@ def test_distinct_real_roots_are_counted(parts):
     assert fibre.count() == fibre.count_by_remainders() == len({name for part in parts for name in PARTS[part]})
 
 
+@pytest.mark.parametrize(("constant", "count"), [(-X, 2), (X, 0)])
+def test_subresultants_that_vanish_at_the_point_alone(constant, count):
+    """Y^4 + constant there: between the degrees 3 and 0 all leading coefficients are zero."""
+    zero = X**2 - 2
+    assert AlgebraicFibre(ROOT, 1, Y**4 + zero * Y**2 + zero * Y + constant).count_by_remainders() == count
+
+
 @given(products, products, products)
 def test_a_common_divisor_divides_and_is_divided(common, one, other):
     f, g, d = _product(common + one), _product(common + other), _product(common)
