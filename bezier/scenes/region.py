@@ -267,15 +267,16 @@ def _between(scene: Scene, free: Sequence[Cell], mixed: Sequence[Sequence[Cell]]
 
 def _parts(scene: Scene, cell: Cell) -> list[Cell]:
     """The cell cut in halves, and these again: in the plane along the curve of a condition that is open there, if that
-    is nearly straight, so that cells lie along narrow passages; or else across the longest side."""
+    is nearly straight, so that cells lie along narrow passages; or else across the longest side. Along a line that just
+    touches the cell it is cut once: such cuts alone would not end."""
     parts = [cell]
-    for _ in range(2):
-        parts = [half for part in parts for half in part.cut(_cut_through(scene, part)) if half is not None]
+    for share in (-1, 1):
+        parts = [half for part in parts for half in part.cut(_cut_through(scene, part, share)) if half is not None]
     return parts
 
 
-def _cut_through(scene: Scene, cell: Cell) -> Side:
-    """Found in floating point, which decides nothing about cells."""
+def _cut_through(scene: Scene, cell: Cell, share: int) -> Side:
+    """Found in floating point, which decides nothing about cells. ``share``: -1 where lines may just touch it."""
     low, high = ends_of(cell.floats)
     sizes, least = [b - a for a, b in zip(low, high, strict=True)], 1.0
     normal = tuple(Fraction(k == sizes.index(max(sizes))) for k in range(len(sizes)))
@@ -285,7 +286,8 @@ def _cut_through(scene: Scene, cell: Cell) -> Side:
         except OverflowError:
             continue
         bent, change = sum(map(abs, rest.values())), max(values) - min(values)
-        if min(values) - bent < 0 < max(values) + bent and bent < least * change:
+        away = bent + NEARLY * change if bent else share * NEARLY * change
+        if min(values) + away < 0 < max(values) - away and bent < least * change:
             normal, least = tuple(Fraction(round(s / max(map(abs, slopes)) * TURNS)) for s in slopes), bent / change
     levels = [Fraction(dot(normal, p)) for p in cell.corners]
     first, last = min(levels), max(levels)

@@ -167,6 +167,7 @@ def ring_of(count: int, bend: str = "1") -> list[str]:
     return result
 
 
+PLANE = {"start": [-8, 0], "goal": [8, 0], "domain": {"low": [-9, -5], "high": [9, 5]}}
 ACROSS = {"start": [-8, 0, 0], "goal": [8, 0, 0], "domain": {"low": [-9, -5, -5], "high": [9, 5, 5]}}
 
 
@@ -178,10 +179,17 @@ def test_a_plane_through_the_middle_of_the_box_is_a_wall(text: str, blocked: boo
     assert isinstance(found, Blocked) is blocked
 
 
+@each("x = 0 & y^2 <= 24", "x = 1/3 & y^2 <= 16", "x = 0 & y <= 24/5 & y >= -24/5", "x = y/100 & y^2 <= 24")
+def test_a_way_leads_past_the_ends_of_a_thin_wall(text: str) -> None:
+    """Cells were cut again and again along lines that only touch them, and the way stayed undecided."""
+    found = decided(read_scene({**PLANE, "obstacle": [formula(text)]}), Budget(60))
+    found.check()
+    assert not isinstance(found, Blocked)
+
+
 def test_a_segment_on_the_way_has_boxes_without_height() -> None:
     """Slopes of its polynomial there were divided by the height 0: an internal error."""
-    flat = {"start": [-8, 0], "goal": [8, 0], "domain": {"low": [-9, -5], "high": [9, 5]}}
-    found = decided(read_scene({**flat, "obstacle": [formula("y = 0 & x^2 <= 1")]}), Budget(60))
+    found = decided(read_scene({**PLANE, "obstacle": [formula("y = 0 & x^2 <= 1")]}), Budget(60))
     found.check()
     assert not isinstance(found, Blocked)
 
