@@ -203,7 +203,8 @@ def _implied(said: Sentence, supposed: str, claim: str, known: str) -> str | Non
     names = {*_names(whole)} - _bound(whole)
     condition = _conditions(said, supposed, tuple(names))
     made = products(f"({condition}) -> ({whole})")
-    if condition is None or {*"".join(name if name in made else "" for name in names), *names} & _bound(condition):
+    letters = {letter for name in names if name in made for letter in name}  # "kx" may mean k*x
+    if condition is None or (names | letters) & _bound(condition):
         return None
     _no_other_variables(known, condition)
     return _closed(_claim(said[claim]), _both(known, condition))
